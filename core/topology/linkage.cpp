@@ -1,0 +1,56 @@
+#include "core/topology/linkage.h"
+
+namespace linkstudy {
+
+int velocity_count(JointType type) {
+  switch (type) {
+    case JointType::fixed:
+      return 0;
+    case JointType::revolute:
+    case JointType::prismatic:
+    case JointType::screw:
+      return 1;
+    case JointType::cylindrical:
+    case JointType::universal:
+      return 2;
+    case JointType::spherical:
+    case JointType::planar:
+      return 3;
+    case JointType::free:
+      return 6;
+  }
+  return 0;
+}
+
+int position_count(JointType type, RotationCoordinates coordinates) {
+  const bool ball = type == JointType::spherical || type == JointType::free;
+  const bool quaternion = ball && coordinates == RotationCoordinates::quaternion;
+  return velocity_count(type) + (quaternion ? 1 : 0);
+}
+
+unsigned blocked_directions(JointType type) {
+  constexpr unsigned x = 1u << kX, y = 1u << kY, z = 1u << kZ;
+  constexpr unsigned phi = 1u << kPhi, theta = 1u << kTheta, psi = 1u << kPsi;
+  switch (type) {
+    case JointType::spherical:
+      return x | y | z;
+    case JointType::revolute:
+      return x | y | z | theta | psi;
+    case JointType::universal:
+      return x | y | z | psi;
+    case JointType::prismatic:
+      return y | z | phi | theta | psi;
+    case JointType::cylindrical:
+      return y | z | theta | psi;
+    case JointType::planar:
+      return x | theta | psi;
+    case JointType::fixed:
+      return x | y | z | phi | theta | psi;
+    case JointType::free:
+    case JointType::screw:
+      return 0;
+  }
+  return 0;
+}
+
+}  // namespace linkstudy
