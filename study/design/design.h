@@ -1,0 +1,27 @@
+// A design says which points of the parameter space are evaluated: a pure function of the axes.
+// A point's id is its position; a design without axes is the base model alone, one point.
+// Bad axes or too many points raise std::invalid_argument with the remedy.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "study/design/axis.h"
+
+namespace linkstudy {
+
+enum class Design { list, grid };
+
+std::string_view design_name(Design design);
+std::optional<Design> find_design(std::string_view name);
+
+std::uint64_t count_points(Design design, const std::vector<Axis>& axes);
+
+// One point without the others, for id < count_points.
+Point make_point(Design design, const std::vector<Axis>& axes, std::uint64_t id);
+
+std::vector<Point> make_points(Design design, const std::vector<Axis>& axes);
+
+}  // namespace linkstudy
