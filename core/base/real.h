@@ -1,0 +1,49 @@
+// The arithmetic that the step loop is written in. Every kernel is a template on Real; Real is
+// `double` here, and any type that offers the same free functions and comparison results (a mask
+// accepted by `select` and `any`) may take its place: a pack of SIMD lanes, one case a lane.
+//   madd(a, b, c) = a b + c      select(mask, a, b) = mask ? a : b, lane by lane
+// Branches on values are written with select; branches on structure are ordinary ifs.
+#pragma once
+
+#include <cmath>
+
+namespace linkstudy {
+
+template <class Real>
+struct RealTraits;
+
+template <>
+struct RealTraits<double> {
+  using Mask = bool;
+  static constexpr int lanes = 1;
+};
+
+inline double madd(double a, double b, double c) {
+  return a * b + c;
+}
+inline double select(bool mask, double a, double b) {
+  return mask ? a : b;
+}
+inline bool any(bool mask) {
+  return mask;
+}
+inline bool all(bool mask) {
+  return mask;
+}
+inline double sqrt(double a) {
+  return std::sqrt(a);
+}
+inline double abs(double a) {
+  return std::fabs(a);
+}
+inline double min(double a, double b) {
+  return a < b ? a : b;
+}
+inline double max(double a, double b) {
+  return a > b ? a : b;
+}
+inline bool is_finite(double a) {
+  return std::fabs(a) <= 1.7976931348623157e308;
+}
+
+}  // namespace linkstudy

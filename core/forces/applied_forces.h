@@ -1,0 +1,108 @@
+// Everything that acts on a linkage beside gravity and constraints; `update_applied_forces` is the
+// only list of force kinds. Writes BodyState::external, the joint loads in tau, and the powers.
+#pragma once
+
+#include "core/kinematics/closure_kinematics.h"
+#include "core/laws/course.h"
+
+namespace linkstudy {
+
+// Amplitude of a load at time t, N or N m.
+template <class Real>
+inline Real course_value(const LoadStructure& s, const LoadParameters<Real>& n,
+                         const SegmentParameters<Real>* segments, double t) {
+  switch (s.course) {
+    case CourseShape::constant:
+      return n.value;
+    case CourseShape::ramp:
+      return n.value * ramp_course(Real(t), n.rate);
+    case CourseShape::smooth:
+      return n.value * smooth_course(Real(t), n.rate);
+    case CourseShape::table:
+      break;
+  }
+  Real value = n.value;
+  for (int i = s.table_begin; i < s.table_end; ++i) {
+    const SegmentParameters<Real>& g = segments[i];
+    value = value + linear_segment(Real(t), g.begin, g.length, g.slope);
+  }
+  return value;
+}
+
+template <class Real>
+inline void add_drive(const LoadStructure& s, Real value, const Real* v, Workspace<Real>& w) {
+  w.tau[static_cast<std::size_t>(s.v)] = w.tau[static_cast<std::size_t>(s.v)] + value;
+  w.supplied_power = madd(value, v[s.v], w.supplied_power);
+}
+
+template <class Real>
+inline void add_resistance(const LoadStructure& s, Real coefficient, const Real* v,
+                           Workspace<Real>& w) {
+  const Real value = s.law == ResistanceShape::linear ? linear_resistance(v[s.v], coefficient)
+                                                      : quadratic_resistance(v[s.v], coefficient);
+  w.tau[static_cast<std::size_t>(s.v)] = w.tau[static_cast<std::size_t>(s.v)] - value;
+  w.dissipated_power = madd(value, v[s.v], w.dissipated_power);
+}
+
+template <class Real>
+inline void add_link_load(const LoadStructure& s, const LoadParameters<Real>& n, Real value,
+                          Workspace<Real>& w) {
+  BodyState<Real>& b = w.bodies[static_cast<std::size_t>(s.body)];
+  const Vec3<Real> e = value * (s.follows_link ? b.r * n.direction : n.direction);
+  const Force<Real> load = s.type == LoadType::link_force ? line_force(b.p + b.r * n.point, e)
+                                                          : Force<Real>{e, zero3<Real>()};
+  b.external = b.external + load;
+  w.supplied_power = w.supplied_power + dot(b.v, load);
+}
+
+template <class Real>
+inline void add_loads(const Mechanism& m, const Parameters<Real>& p, double t, const Real* v,
+                      Workspace<Real>& w) {
+  for (std::size_t i = 0; i < m.loads.size(); ++i) {
+    const LoadStructure& s = m.loads[i];
+    const LoadParameters<Real>& n = p.loads[i];
+    if (s.type == LoadType::resistance) {
+      add_resistance(s, n.value, v, w);
+      continue;
+    }
+    const Real value = course_value(s, n, p.segments.data(), t);
+    if (s.type == LoadType::drive) {
+      add_drive(s, value, v, w);
+    } else {
+      add_link_load(s, n, value, w);
+    }
+  }
+}
+
+// Spring-damping elements: f = c d + b d_dot along each row, on chain 1 ([Urbas16] eqs. (5), (14)).
+template <class Real>
+inline void add_sdes(const Mechanism& m, const Parameters<Real>& p, Workspace<Real>& w) {
+  if (m.sde_rows.empty()) return;
+  update_rows(m, p, ClosureModel::sde, w);
+  for (std::size_t i = 0; i < m.sde_rows.size(); ++i) {
+    const ClosureStructure& c = m.closures[static_cast<std::size_t>(m.sde_rows[i].closure)];
+    const SpringParameters<Real>& n = p.springs[i];
+    RowState<Real>& row = w.sde_rows[i];
+    const Real damping_force = n.damping * row.rate;
+    row.value = madd(n.stiffness, row.d, damping_force);
+    BodyState<Real>& b1 = w.bodies[static_cast<std::size_t>(c.first)];
+    BodyState<Real>& b2 = w.bodies[static_cast<std::size_t>(c.second)];
+    b1.external = madd(row.value, row.w1, b1.external);
+    b2.external = madd(Real(-row.value), row.w2, b2.external);
+    w.dissipated_power = madd(damping_force, row.rate, w.dissipated_power);
+  }
+}
+
+template <class Real>
+inline void update_applied_forces(const Mechanism& m, const Parameters<Real>& p, double t,
+                                  const Real* v, Workspace<Real>& w) {
+  const Force<Real> none{zero3<Real>(), zero3<Real>()};
+  for (BodyState<Real>& b : w.bodies) b.external = none;
+  for (Real& x : w.tau) x = Real(0.0);
+  w.supplied_power = Real(0.0);
+  w.dissipated_power = Real(0.0);
+  add_loads(m, p, t, v, w);
+  add_sdes(m, p, w);
+}
+
+}  // namespace linkstudy

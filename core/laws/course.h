@@ -1,0 +1,40 @@
+// Courses of a drive over time and laws of resistance over speed ([Urbas16] fig. 10; curve shapes
+// are our assumptions). Values in N or N m.
+#pragma once
+
+#include "core/base/real.h"
+
+namespace linkstudy {
+
+// min(t / T, 1), with rate = 1 / T
+template <class Real>
+inline Real ramp_course(Real t, Real rate) {
+  return min(t * rate, Real(1.0));
+}
+
+// 3 s^2 - 2 s^3 on [0, 1], then 1
+template <class Real>
+inline Real smooth_course(Real t, Real rate) {
+  const Real s = min(t * rate, Real(1.0));
+  return s * s * madd(Real(-2.0), s, Real(3.0));
+}
+
+// One segment of a piecewise linear course: slope * clamp(t - begin, 0, length).
+template <class Real>
+inline Real linear_segment(Real t, Real begin, Real length, Real slope) {
+  return slope * min(max(t - begin, Real(0.0)), length);
+}
+
+// t_res = value * (v / v0)
+template <class Real>
+inline Real linear_resistance(Real v, Real coefficient) {
+  return coefficient * v;
+}
+
+// t_res = value * (v / v0) |v / v0|, coefficient = value / v0^2
+template <class Real>
+inline Real quadratic_resistance(Real v, Real coefficient) {
+  return coefficient * v * abs(v);
+}
+
+}  // namespace linkstudy

@@ -1,0 +1,25 @@
+// From a checked description to the step loop's structure and numbers.
+#pragma once
+
+#include "core/model/mechanism.h"
+#include "core/model/parameters.h"
+#include "core/model/state.h"
+#include "core/topology/linkage.h"
+
+namespace linkstudy {
+
+struct Model {
+  Mechanism mechanism;
+  Parameters<double> parameters;
+  State<double> start;    // as given; not yet assembled
+  std::vector<int> held;  // velocity indices of joints with hold = true
+};
+
+// Precondition: check(linkage) is empty. Bodies follow the order of Linkage::joints wherever that
+// puts parents before children. Damping given as a ratio is zero until resolve_damping (dynamics).
+Model compile(const Linkage& linkage);
+
+// Frame of a link in its body's internal frame: the inverse of the joint's child frame.
+Frame link_in_body(const Joint& joint);
+
+}  // namespace linkstudy

@@ -1,0 +1,110 @@
+// Structure of a linkage, compiled for the step loop: what is connected to what, by index, and
+// which entries are trivial. Holds no dimensions; cases of one structure differ in Parameters only
+// and may share a Mechanism.
+//
+// Bodies are numbered 0 (ground), 1 .. nb-1 with parents before children. Each body's internal
+// frame is the child frame of its tree joint; frames and inertias of the description are
+// re-expressed in it once, so the step loop knows no child frames. Joints are products of the basic
+// motions Z1 .. Z6 of [Palcak] (translations and rotations along and about x, y, z), a screw about
+// z, or a ball (unit quaternion).
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/topology/linkage.h"
+
+namespace linkstudy {
+
+enum class BasicMotion : std::uint8_t { tx, ty, tz, rx, ry, rz, screw, ball };
+
+struct Stage {
+  BasicMotion motion;
+  int q;  // first position index; a ball has 4 (w x y z)
+  int v;  // first velocity index; a ball has 3 (angular velocity in the joint's child frame)
+};
+
+struct Body {
+  int parent = 0;
+  int stage_begin = 0, stage_end = 0;
+  int q_begin = 0, q_count = 0;
+  int v_begin = 0, v_count = 0;
+  bool rotated_frame = true;     // joint frame in the parent is not parallel to it
+  bool offset_frame = true;      // joint frame in the parent has another origin
+  bool diagonal_inertia = true;  // in the internal frame
+  bool offset_mass = true;       // centre of mass away from the internal origin
+};
+
+// A scalar direction of a closure: its displacement d, rate, and the wrench that works on it.
+//   translation_ground  d = e . (p2 - p1), e a ground axis
+//   translation_first   d = e . (p2 - p1), e an axis of {1,e}
+//   spring_ground/_first  the same with e a given unit direction
+//   line_of_centres     d = |p2 - p1|
+//   rotation            d = sign * a . b, a an axis of {1,e}, b an axis of {2,e}
+enum class RowKind : std::uint8_t {
+  translation_ground,
+  translation_first,
+  spring_ground,
+  spring_first,
+  line_of_centres,
+  rotation
+};
+
+struct Row {
+  RowKind kind;
+  int closure;
+  int axis;         // e, or a
+  int other = 0;    // b
+  double sign = 1;  // of a rotation
+  int direction;    // Direction that the row stands for (three_springs: number of the spring)
+};
+
+struct ClosureStructure {
+  int first = 0, second = 0;  // bodies
+  ClosureModel model = ClosureModel::cut;
+  Stabilization stabilization = Stabilization::none;
+  int row_begin = 0, row_end = 0;  // in Mechanism::cut_rows or sde_rows
+  int last_1 = -1, last_2 = -1;    // last velocity on each path to ground
+  std::vector<int> support;        // velocities on both paths to ground, descending
+};
+
+struct LoadStructure {
+  LoadType type;
+  int v = -1;     // drive, resistance
+  int body = -1;  // link_force, link_torque
+  bool follows_link = false;
+  CourseShape course = CourseShape::constant;
+  ResistanceShape law = ResistanceShape::linear;
+  int table_begin = 0, table_end = 0;  // segments of a table course
+};
+
+struct Mechanism {
+  int nq = 0;
+  int nv = 0;
+  std::vector<Body> bodies;   // (nb), [0] ground
+  std::vector<Stage> stages;  // in body order
+  std::vector<int> v_parent;  // (nv) previous velocity on the path to ground, or -1
+  std::vector<int> v_body;    // (nv)
+  std::vector<int> ball_q;    // first position index of every quaternion
+  std::vector<ClosureStructure> closures;
+  std::vector<Row> cut_rows;  // (nc) constraint rows, closure by closure
+  std::vector<Row> sde_rows;  // (ns)
+  std::vector<LoadStructure> loads;
+  int table_segments = 0;
+  bool projects = false;  // some cut closure asks for coordinate projection
+
+  // Names, for channels and messages only.
+  std::vector<std::string> link_names;     // by body
+  std::vector<std::string> joint_names;    // by body; [0] empty
+  std::vector<std::string> closure_names;  // by closure
+
+  int body_count() const { return static_cast<int>(bodies.size()); }
+  int cut_row_count() const { return static_cast<int>(cut_rows.size()); }
+  int sde_row_count() const { return static_cast<int>(sde_rows.size()); }
+};
+
+// True if cases of a and b may share a step loop (names aside).
+bool same_structure(const Mechanism& a, const Mechanism& b);
+
+}  // namespace linkstudy

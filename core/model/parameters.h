@@ -1,0 +1,60 @@
+// Numbers of a linkage in the frames of the Mechanism. With Real a pack of lanes, every lane is
+// another case. Units: SI.
+#pragma once
+
+#include <vector>
+
+#include "core/spatial/vector3.h"
+
+namespace linkstudy {
+
+template <class Real>
+struct BodyParameters {
+  Mat3<Real> frame;    // R_PJ: joint frame in the parent's internal frame
+  Vec3<Real> origin;   // p_PJ, m
+  Real mass;           // kg
+  Vec3<Real> center;   // centre of mass in the internal frame, m
+  Sym3<Real> inertia;  // about the centre of mass, internal axes, kg m^2
+};
+
+template <class Real>
+struct ClosureParameters {
+  Mat3<Real> frame_1;  // {1,e} in the internal frame of the first body
+  Vec3<Real> point_1;
+  Mat3<Real> frame_2;  // {2,e} in the second
+  Vec3<Real> point_2;
+  Mat3<Real> springs;  // columns: directions of the form three_springs
+  Real velocity_gain;  // Baumgarte: 2 alpha, 1/s
+  Real position_gain;  // Baumgarte: beta^2, 1/s^2
+};
+
+template <class Real>
+struct LoadParameters {
+  Real value;        // drive: amplitude; resistance: value / v0 or value / v0^2
+  Real rate;         // 1 / duration
+  Vec3<Real> point;  // internal frame
+  Vec3<Real> direction;
+};
+
+template <class Real>
+struct SegmentParameters {
+  Real begin, length, slope;  // of a table course
+};
+
+template <class Real>
+struct SpringParameters {
+  Real stiffness, damping;
+};
+
+template <class Real>
+struct Parameters {
+  Vec3<Real> gravity;                        // ground axes
+  std::vector<BodyParameters<Real>> bodies;  // (nb), [0] unused
+  std::vector<Real> pitch;                   // by stage, m/rad
+  std::vector<ClosureParameters<Real>> closures;
+  std::vector<SpringParameters<Real>> springs;  // (ns)
+  std::vector<LoadParameters<Real>> loads;
+  std::vector<SegmentParameters<Real>> segments;
+};
+
+}  // namespace linkstudy
