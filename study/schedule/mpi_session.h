@@ -1,0 +1,51 @@
+// Open MPI between construction and destruction (MPI_THREAD_FUNNELED: only the main thread calls).
+//
+// A rank that dies ends the whole job: the survivors get SIGCONT and SIGTERM, and SIGKILL about one
+// second later (odls_base_sigkill_timeout). mpirun does the same when it is sent SIGTERM or SIGINT
+// itself, whereas it passes SIGUSR1 on and leaves the ranks their time. So the journal is synced in
+// that second (PoolOptions::on_terminate) and the next start resumes.
+#pragma once
+
+#include <list>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "study/schedule/transport.h"
+
+namespace linkstudy {
+
+class MpiSession final : public Transport {
+ public:
+  MpiSession();
+  ~MpiSession() override;
+  MpiSession(const MpiSession&) = delete;
+  MpiSession& operator=(const MpiSession&) = delete;
+
+  int rank() const override { return rank_; }
+  int size() const override { return size_; }
+  int nodes() const override { return nodes_; }
+  const std::string& host() const override { return host_; }
+  void send(int to, Tag tag, std::string bytes) override;
+  std::optional<Message> receive() override;
+  bool all_sent() override;
+  void broadcast(std::string& bytes) override;
+  int agree_exit_code(int code) override;
+
+ private:
+  void finalize() override;
+  void kill_all(int code) override;
+
+  struct Pending;  // a message and its request; the bytes must stay where they are
+
+  int rank_ = 0;
+  int size_ = 1;
+  int nodes_ = 1;
+  std::string host_;
+  std::list<std::unique_ptr<Pending>> pending_;
+};
+
+// Name and version of the MPI library, for --version; needs no MPI_Init.
+std::string mpi_library_version();
+
+}  // namespace linkstudy

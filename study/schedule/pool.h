@@ -1,0 +1,120 @@
+// Tasks are pulled: whoever is idle gets the next one, so uneven durations balance by themselves.
+//
+//   Pool pool(transport, work, options);          every rank
+//   if (transport.rank() != 0) pool.serve();      until rank 0 is done
+//   else for (rounds) pool.run(tasks, on_result);
+//   return transport.agree_exit_code(code);       after the pool is gone
+//
+// Rank 0 computes too, in a second thread; its main thread is the only one that talks to MPI, by
+// polling and sleeping. A rank is given tasks in advance only while they are so short (below 10 ms)
+// that the way of a message counts. Results arrive in any order, each once, on the main thread.
+//
+// Stop signals (stop_signals.h) may reach any rank; rank 0 coordinates. Ranks that die end the job
+// (mpi_session.h); until the rest is killed, about one second later, on_terminate has its chance.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "study/schedule/compute_thread.h"
+#include "study/schedule/task.h"
+#include "study/schedule/transport.h"
+
+namespace linkstudy {
+
+inline constexpr int exit_resumable = 75;
+
+struct PoolOptions {
+  // No work is handed out from then on.
+  std::optional<std::chrono::steady_clock::time_point> deadline;
+  // Called once, on rank 0's main thread, as soon as a stop signal is seen: sync the journal.
+  std::function<void()> on_terminate;
+  // Called on rank 0's main thread during run, about every 0.1 s: redraw, sync.
+  std::function<void()> on_tick;
+};
+
+enum class RunEnd {
+  complete,
+  cancelled,  // Pool::cancel was called
+  deadline,
+  signal,
+  abandoned,  // second signal: tasks may still be running, see leave_now
+};
+
+struct RunOutcome {
+  RunEnd end = RunEnd::complete;
+  std::size_t done = 0;  // results delivered, failed ones included
+
+  // The caller writes what it has and exits with exit_resumable.
+  bool interrupted() const { return end >= RunEnd::deadline; }
+};
+
+class Pool {
+ public:
+  using OnResult = std::function<void(TaskResult result)>;
+
+  Pool(Transport& transport, Work work, PoolOptions options = {});
+  // Rank 0: tells the others that there is no more work and waits until they have left serve and
+  // tasks that a run left behind have ended; after a second stop signal it waits no more than two
+  // seconds and then ends all ranks with exit_resumable.
+  ~Pool();
+  Pool(const Pool&) = delete;
+  Pool& operator=(const Pool&) = delete;
+
+  // Rank 0. Calls on_result once per task, in order of arrival, unless the run ends early. What
+  // on_result throws ends the run and goes on to the caller; the pool stays usable.
+  RunOutcome run(std::vector<std::string> tasks, const OnResult& on_result);
+
+  // Rank 0, from on_result or on_tick: hand out no more of this run, wait for what is in flight.
+  void cancel() { cancelled_ = true; }
+
+  // Other ranks. Returns when rank 0 is done; after an abandoned run it exits with rank 0's code.
+  void serve();
+
+  // Rank 0, after an abandoned run, with everything written: every rank exits with this code
+  // without waiting for tasks that are still running.
+  [[noreturn]] void leave_now(int code);
+
+ private:
+  struct Run;
+
+  bool is_alone() const { return transport_.size() == 1; }
+  int find_stop_level() const;
+  bool collect(Run& run);
+  void deliver(Run& run, TaskResult result);
+  void feed(Run& run, int rank);
+  std::size_t find_depth(const Run& run) const;
+  std::optional<RunEnd> find_end(const Run& run);
+  void note_stop_signal();
+  void wait(std::chrono::steady_clock::time_point& next_tick);
+  std::chrono::microseconds find_pause() const;
+  void send_all(Tag tag, const std::string& bytes);
+  void note_message(Run* run, Message message);
+  bool collect_byes();
+  void finish();
+
+  void send_results();
+  void forward_signals();
+  void say_bye();
+  [[noreturn]] void leave_worker(int code);
+
+  Transport& transport_;
+  PoolOptions options_;
+  ComputeThread thread_;
+  std::vector<std::size_t> outstanding_;  // tasks given to a rank and not answered, (size)
+  std::uint64_t run_number_ = 0;
+  double mean_seconds_ = -1.0;  // of recent tasks, negative until the first
+  int forwarded_level_ = 0;     // highest stop level of the other ranks; on those: level passed on
+  int byes_ = 0;
+  bool terminate_called_ = false;
+  bool cancelled_ = false;
+  bool finished_ = false;
+  bool leaving_ = false;
+};
+
+}  // namespace linkstudy

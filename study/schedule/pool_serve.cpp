@@ -1,0 +1,82 @@
+// The ranks that serve.
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "study/schedule/pool.h"
+#include "study/schedule/stop_signals.h"
+
+namespace linkstudy {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::microseconds;
+using std::chrono::milliseconds;
+
+// While it computes, the main thread only looks after signals and large messages.
+constexpr microseconds pause_computing{2000};
+constexpr microseconds pause_idle{100};
+// Between the runs of a tuner rank 0 may think for long.
+constexpr microseconds pause_long_idle{1000};
+constexpr milliseconds long_idle_after{100};
+
+}  // namespace
+
+void Pool::serve() {
+  if (transport_.rank() == 0) throw std::logic_error("rank 0 runs tasks; the others serve");
+  bool stopped = false;
+  auto last_active = Clock::now();
+  while (!stopped || !thread_.idle()) {
+    bool active = false;
+    while (auto message = transport_.receive()) {
+      active = true;
+      if (message->tag == Tag::task) thread_.push(unpack_task(std::move(message->bytes)));
+      if (message->tag == Tag::abandon) leave_worker(std::stoi(message->bytes));
+      if (message->tag != Tag::stop) continue;
+      stopped = true;
+      thread_.drop_queued();
+    }
+    send_results();
+    forward_signals();
+    if (active) last_active = Clock::now();
+    if (!thread_.idle())
+      thread_.wait_for_result(pause_computing);
+    else
+      std::this_thread::sleep_for(Clock::now() - last_active > long_idle_after ? pause_long_idle
+                                                                               : pause_idle);
+  }
+  say_bye();
+}
+
+void Pool::send_results() {
+  while (auto result = thread_.pop()) {
+    TaskResult head{result->run, result->index, {}, true, result->seconds, result->rank};
+    try {
+      transport_.send(0, Tag::result, pack_result(std::move(*result)));
+    } catch (const std::length_error& error) {
+      head.bytes = error.what();
+      transport_.send(0, Tag::result, pack_result(std::move(head)));
+    }
+  }
+}
+
+// A rank does not stop by itself: rank 0 hears of the signal and coordinates.
+void Pool::forward_signals() {
+  const int level = std::min(stop_level(), 2);
+  if (level <= forwarded_level_) return;
+  forwarded_level_ = level;
+  transport_.send(0, Tag::signal, std::to_string(level));
+}
+
+void Pool::say_bye() {
+  transport_.send(0, Tag::bye, "");
+  while (!transport_.all_sent()) std::this_thread::sleep_for(pause_idle);
+}
+
+void Pool::leave_worker(int code) {
+  say_bye();
+  transport_.leave_now(code);
+}
+
+}  // namespace linkstudy

@@ -1,0 +1,63 @@
+#include "study/schedule/stop_signals.h"
+
+#include <csignal>
+#include <ctime>
+
+#include <atomic>
+#include <cerrno>
+#include <cstdint>
+
+namespace linkstudy {
+namespace {
+
+constexpr std::int64_t one_press_ns = 100'000'000;
+
+std::atomic<int> level{0};
+std::atomic<int> last_signal{0};
+std::atomic<std::int64_t> last_time_ns{-one_press_ns};
+static_assert(std::atomic<int>::is_always_lock_free &&
+              std::atomic<std::int64_t>::is_always_lock_free);
+
+// Only calls that are allowed in a signal handler: lock-free atomics and clock_gettime.
+void count_signal(int number) {
+  const int saved = errno;
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  const std::int64_t now_ns = std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
+  const std::int64_t before = last_time_ns.exchange(now_ns);
+  if (level.load() == 0 || now_ns - before >= one_press_ns) ++level;
+  last_signal.store(number);
+  errno = saved;
+}
+
+}  // namespace
+
+StopSignals::StopSignals() {
+  reset_stop();
+  struct sigaction action {};
+  action.sa_handler = count_signal;
+  action.sa_flags = SA_RESTART;
+  sigemptyset(&action.sa_mask);
+  for (const int number : {SIGTERM, SIGUSR1, SIGINT}) sigaddset(&action.sa_mask, number);
+  for (const int number : {SIGTERM, SIGUSR1, SIGINT}) sigaction(number, &action, nullptr);
+}
+
+int stop_level() {
+  return level.load();
+}
+
+int last_stop_signal() {
+  return last_signal.load();
+}
+
+void request_stop() {
+  ++level;
+}
+
+void reset_stop() {
+  level.store(0);
+  last_signal.store(0);
+  last_time_ns.store(-one_press_ns);
+}
+
+}  // namespace linkstudy

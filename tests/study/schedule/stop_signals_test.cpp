@@ -1,0 +1,52 @@
+#include "study/schedule/stop_signals.h"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <chrono>
+#include <thread>
+
+namespace linkstudy {
+namespace {
+
+TEST(Stop_signals, Raise_the_level_instead_of_killing) {
+  for (const int number : {SIGTERM, SIGUSR1, SIGINT}) {
+    const StopSignals signals;
+    EXPECT_EQ(stop_level(), 0);
+    raise(number);
+    EXPECT_EQ(stop_level(), 1);
+    EXPECT_EQ(last_stop_signal(), number);
+  }
+  reset_stop();
+}
+
+TEST(Stop_signals, Passed_on_by_several_senders_at_once_count_once) {
+  const StopSignals signals;
+  raise(SIGINT);
+  raise(SIGTERM);
+  raise(SIGTERM);
+  EXPECT_EQ(stop_level(), 1);
+  std::this_thread::sleep_for(std::chrono::milliseconds(150));
+  raise(SIGINT);
+  EXPECT_EQ(stop_level(), 2);
+  reset_stop();
+}
+
+TEST(Stop_signals, Leave_a_continue_signal_harmless) {
+  const StopSignals signals;
+  raise(SIGCONT);
+  EXPECT_EQ(stop_level(), 0);
+}
+
+TEST(Stop_requests, Count_like_signals) {
+  reset_stop();
+  request_stop();
+  EXPECT_EQ(stop_level(), 1);
+  request_stop();
+  EXPECT_EQ(stop_level(), 2);
+  reset_stop();
+  EXPECT_EQ(stop_level(), 0);
+}
+
+}  // namespace
+}  // namespace linkstudy
