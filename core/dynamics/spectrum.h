@@ -1,0 +1,27 @@
+// Highest eigenfrequency of the linearised equations of motion at a state, and the largest stable
+// step of the classical Runge-Kutta method for them. All applied forces are in (damping and
+// resistance too); the linear system is d/dt (dq, dv) = A (dq, dv), A by central differences.
+// Step limit: the largest h with |R(h lambda)| <= 1 for every eigenvalue, R(z) = 1 + z + z^2/2 +
+// z^3/6 + z^4/24; eigenvalues in the right half plane (an unstable equilibrium, not an unstable
+// method) count with their real part set to zero.
+#pragma once
+
+#include <complex>
+#include <vector>
+
+#include "core/model/compile.h"
+
+namespace linkstudy {
+
+struct Spectrum {
+  std::vector<std::complex<double>> eigenvalues;  // 1/s
+  double omega_max = 0.0;                         // largest |lambda|, rad/s
+  double step_limit = 0.0;                        // s; infinite if nothing moves
+};
+
+Spectrum compute_spectrum(const Model& model, const State<double>& s);
+
+// Largest h > 0 with |R(h' lambda)| <= 1 for all h' <= h.
+double stable_step(std::complex<double> lambda);
+
+}  // namespace linkstudy

@@ -1,0 +1,64 @@
+// Assembly: from an approximate to a closed start, and velocities that the closures allow.
+//
+// Positions: least squares on the closure residual r (m and dimensionless rows) by
+// Levenberg-Marquardt, moving all joints that are not held. A start that is already closed is left
+// untouched; a worse one is never returned. If the given start does not lead to a closed pose,
+// deterministic restarts around it are tried, nearest first; a pose in which the axes of a closure
+// point against each other, where they did not at the given start, is no solution.
+// Velocities: the smallest change of the free velocities that gives J v = 0.
+// Every closure counts as the exact joint of its type, however it is modelled.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "core/model/compile.h"
+#include "core/model/workspace.h"
+
+namespace linkstudy {
+
+struct AssemblyReport {
+  bool closed = false;
+  double residual_given = 0.0;  // norm of r at the given start
+  double residual = 0.0;        // at the returned one
+  double displacement = 0.0;    // norm of the change of the joint positions, rad and m
+  int iterations = 0;
+  int restarts = 0;  // 0: from the given start
+  double velocity_residual = 0.0;
+  int rows = 0;      // closure equations
+  int rank = 0;      // independent ones at the start
+  int mobility = 0;  // nv - rank at the start
+  // Which of the closed poses this is: the sign of the determinant of the closure equations with
+  // respect to the `dependent` velocities; 0 where rank < rows or at a singular pose.
+  int branch = 0;
+  std::vector<int> dependent;  // velocity indices
+  std::string worst_closure;   // largest residual, if not closed
+};
+
+// Residual below which a start counts as closed, m and 1.
+inline constexpr double kClosedTolerance = 1e-9;
+
+// The same linkage with every closure cut, so that its closure equations can be evaluated.
+Model compile_closed(const Linkage& linkage);
+
+// Moves `start` (positions and velocities) of the compiled closed linkage.
+AssemblyReport assemble_start(const Model& closed, State<double>& start);
+
+// Residual r (nc) and Jacobian (nc, nv) of the cut rows at (q, v).
+struct ClosureEquations {
+  Eigen::VectorXd residual;
+  Eigen::MatrixXd jacobian;
+};
+ClosureEquations compute_closure_equations(const Mechanism& m, const Parameters<double>& p,
+                                           const State<double>& s);
+
+// Jacobian of given rows from a workspace that holds them.
+Eigen::MatrixXd row_jacobian(const Mechanism& m, const std::vector<Row>& rows,
+                             const std::vector<RowState<double>>& states,
+                             const std::vector<Motion<double>>& axes);
+
+// q moved by a displacement in velocity coordinates.
+State<double> displaced(const Mechanism& m, const State<double>& s, const Eigen::VectorXd& dq);
+
+}  // namespace linkstudy

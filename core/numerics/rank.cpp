@@ -1,0 +1,25 @@
+#include "core/numerics/rank.h"
+
+#include <Eigen/SVD>
+
+namespace linkstudy {
+
+NumericalRank numerical_rank(const Eigen::MatrixXd& a, double relative_tolerance) {
+  NumericalRank r;
+  if (a.size() == 0) return r;
+  const Eigen::VectorXd s = Eigen::JacobiSVD<Eigen::MatrixXd>(a).singularValues();
+  const double largest = s[0];
+  if (largest == 0.0) return r;
+  for (Eigen::Index i = 0; i < s.size(); ++i) {
+    const double relative = s[i] / largest;
+    if (relative > relative_tolerance) {
+      ++r.rank;
+      r.smallest_kept = relative;
+    } else {
+      r.largest_dropped = std::max(r.largest_dropped, relative);
+    }
+  }
+  return r;
+}
+
+}  // namespace linkstudy

@@ -1,0 +1,108 @@
+#include "core/simulation/prepare.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "core/dynamics/effective_mass.h"
+#include "core/simulation/simulate.h"
+
+namespace linkstudy {
+namespace {
+
+std::string number(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", x);
+  return text;
+}
+
+void fail(Preparation& p, Cause cause, std::string message) {
+  p.cause = cause;
+  p.message = std::move(message);
+}
+
+bool assemble(const Linkage& linkage, Preparation& p) {
+  p.assembly = assemble_start(compile_closed(linkage), p.model.start);
+  const AssemblyReport& a = p.assembly;
+  if (!a.closed) {
+    fail(p, Cause::assembly_failed,
+         "closure '" + a.worst_closure + "' cannot be closed from the given start: residual " +
+             number(a.residual) + " after " + std::to_string(a.restarts) + " restarts");
+    return false;
+  }
+  if (a.velocity_residual > 1e-6) {
+    fail(p, Cause::assembly_failed,
+         "the held velocities do not fit the closures: residual " + number(a.velocity_residual));
+    return false;
+  }
+  if (a.restarts > 0) {
+    p.warnings.push_back("the given start did not lead to a closed pose; used restart " +
+                         std::to_string(a.restarts) + ", " + number(a.displacement) + " away");
+  }
+  if (a.rank < a.rows) {
+    p.warnings.push_back(std::to_string(a.rows - a.rank) + " of " + std::to_string(a.rows) +
+                         " closure equations are redundant at the start: multipliers are those "
+                         "of least norm, single reactions are not unique");
+  }
+  return true;
+}
+
+bool find_equilibrium(Preparation& p) {
+  p.statics = solve_statics(p.model, p.model.start);
+  if (!p.statics->converged) {
+    fail(p, Cause::statics_failed,
+         "no static equilibrium after " + std::to_string(p.statics->iterations) +
+             " iterations: force residual " + number(p.statics->force_residual));
+    return false;
+  }
+  if (p.statics->stability == Stability::unstable) {
+    p.warnings.push_back("the static equilibrium at the start is unstable");
+  }
+  return true;
+}
+
+void warn_of_step(const SimulationOptions& options, Preparation& p) {
+  const double h = make_step_grid(options).h;
+  const double product = h * p.spectrum.omega_max;
+  if (h > p.spectrum.step_limit) {
+    p.warnings.push_back("simulation.step = " + number(h) + " s is past the stability limit " +
+                         number(p.spectrum.step_limit) +
+                         " s of RK4 (omega_max = " + number(p.spectrum.omega_max) + " rad/s)");
+  } else if (product > kAccuracyLimit) {
+    p.warnings.push_back("h omega_max = " + number(product) +
+                         ": stable, but the stiffest motion is not resolved; a step below " +
+                         number(kAccuracyLimit / p.spectrum.omega_max) + " s is");
+  }
+}
+
+void warn_of_tilt(const Linkage& linkage, Preparation& p) {
+  for (const Closure& c : linkage.closures) {
+    const bool turns = c.sde.stiffness[kPhi] == 0.0;
+    const bool tilts = c.sde.stiffness[kTheta] != 0.0 || c.sde.stiffness[kPsi] != 0.0;
+    if (c.model != ClosureModel::sde || c.sde.tilt != TiltMeasure::linearized || !turns || !tilts) {
+      continue;
+    }
+    p.warnings.push_back("closure '" + c.name +
+                         "': tilt = \"linearized\" loses stiffness as the joint turns and has "
+                         "none at 90 deg; use \"axis\" beyond 45 deg");
+  }
+}
+
+}  // namespace
+
+Preparation prepare(const Linkage& linkage, const SimulationOptions& options) {
+  Preparation p;
+  p.model = compile(linkage);
+  if (!assemble(linkage, p)) return p;
+  resolve_damping(linkage, p.model.start, p.model);
+  const std::vector<double> velocities = p.model.start.v;
+  if (options.start == Start::equilibrium) {
+    if (!find_equilibrium(p)) return p;
+    p.model.start.v = velocities;
+  }
+  p.spectrum = compute_spectrum(p.model, p.model.start);
+  warn_of_step(options, p);
+  warn_of_tilt(linkage, p);
+  return p;
+}
+
+}  // namespace linkstudy

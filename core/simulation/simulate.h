@@ -1,0 +1,43 @@
+// One run: constant steps of the classical Runge-Kutta method from a prepared start, observers at
+// every accepted state, and a typed cause at the end. A run that fails numerically is a result.
+#pragma once
+
+#include <atomic>
+#include <string>
+
+#include "core/model/parameters.h"
+#include "core/simulation/cause.h"
+#include "core/simulation/observers.h"
+#include "core/simulation/options.h"
+
+namespace linkstudy {
+
+// Equal steps that fill the run: count = ceil(end_time / step), h = end_time / count.
+struct StepGrid {
+  long count;
+  double h;
+};
+StepGrid make_step_grid(const SimulationOptions& options);
+
+struct RunLimits {
+  double timeout_s = 0.0;                        // wall time of the run, 0: none
+  const std::atomic<bool>* cancelled = nullptr;  // checked now and then
+};
+
+struct RunOutcome {
+  Cause cause = Cause::ok;
+  std::string message;
+  double end_time = 0.0;             // reached, s
+  long steps = 0;                    // accepted
+  double drift_max = 0.0;            // largest cut-joint residual, norm over all rows (m, 1)
+  double energy_residual_max = 0.0;  // J, at the output instants
+  double energy_scale = 0.0;         // J, largest kinetic energy or work seen there
+  bool redundant = false;            // cut rows were dependent at some instant
+  State<double> final_state;
+};
+
+RunOutcome simulate(const Mechanism& mechanism, const Parameters<double>& parameters,
+                    const State<double>& start, const SimulationOptions& options,
+                    Observers<double>& observers, const RunLimits& limits = {});
+
+}  // namespace linkstudy

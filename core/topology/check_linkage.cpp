@@ -1,0 +1,268 @@
+#include "core/topology/check_linkage.h"
+
+#include <algorithm>
+
+#include "core/topology/check_values.h"
+#include "core/topology/nearest_name.h"
+
+namespace linkstudy {
+namespace {
+
+std::string quoted(const std::string& name) {
+  return "'" + name + "'";
+}
+
+// Names, references and the tree. Values of one record are judged in check_values.
+class Checker {
+ public:
+  explicit Checker(const Linkage& linkage) : linkage_(linkage) {}
+
+  std::vector<Problem> run() {
+    if (linkage_.links.empty()) {
+      report("link", "the model has no link", "describe at least one [[link]]");
+    }
+    check_names("link", linkage_.links);
+    check_names("joint", linkage_.joints);
+    check_names("closure", linkage_.closures);
+    check_names("load", linkage_.loads);
+    check_link_values();
+    check_joints();
+    check_tree();
+    check_closures();
+    check_loads();
+    return std::move(problems_);
+  }
+
+ private:
+  void report(std::string path, std::string message, std::string remedy) {
+    problems_.push_back({std::move(path), std::move(message), std::move(remedy)});
+  }
+
+  // "joint.A" where that is unambiguous, else by position: "joint.2".
+  template <class Record>
+  static std::string path_of(const char* kind, const std::vector<Record>& records,
+                             std::size_t index) {
+    const std::string& name = records[index].name;
+    const auto first = std::find_if(records.begin(), records.end(),
+                                    [&](const Record& record) { return record.name == name; });
+    const bool addressable =
+        is_legal_name(name) && first == records.begin() + static_cast<std::ptrdiff_t>(index);
+    return std::string(kind) + "." + (addressable ? name : std::to_string(index));
+  }
+
+  template <class Record>
+  void check_names(const std::string& kind, const std::vector<Record>& records) {
+    for (std::size_t i = 0; i < records.size(); ++i) {
+      const std::string& name = records[i].name;
+      const std::string path = kind + "." + std::to_string(i) + ".name";
+      const auto earlier = std::find_if(records.begin(), records.end(),
+                                        [&](const Record& other) { return other.name == name; });
+      if (!is_legal_name(name)) {
+        report(
+            path,
+            kind + ": name must be a letter followed by letters, digits or _, got '" + name + "'",
+            "write a name such as " + kind + "_1");
+      } else if (kind == "link" && name == kGround) {
+        report(path, "link: the name 'ground' is reserved for the fixed link",
+               "give the link another name; 'ground' exists without being described");
+      } else if (earlier < records.begin() + static_cast<std::ptrdiff_t>(i)) {
+        report(path, kind + ": the name '" + name + "' is used twice",
+               "give every " + kind + " its own name");
+      }
+    }
+  }
+
+  bool is_link(const std::string& name) const {
+    return std::any_of(linkage_.links.begin(), linkage_.links.end(),
+                       [&](const Link& link) { return link.name == name; });
+  }
+
+  bool is_body(const std::string& name) const { return name == kGround || is_link(name); }
+
+  std::vector<std::string> body_names() const {
+    std::vector<std::string> names = {kGround};
+    for (const Link& link : linkage_.links) names.push_back(link.name);
+    return names;
+  }
+
+  const Joint* find_joint(const std::string& name) const {
+    for (const Joint& joint : linkage_.joints) {
+      if (joint.name == name) return &joint;
+    }
+    return nullptr;
+  }
+
+  void check_link_values() {
+    for (std::size_t i = 0; i < linkage_.links.size(); ++i) {
+      check_link(linkage_.links[i], path_of("link", linkage_.links, i), problems_);
+    }
+  }
+
+  void check_joints() {
+    for (std::size_t i = 0; i < linkage_.joints.size(); ++i) {
+      const Joint& joint = linkage_.joints[i];
+      const std::string path = path_of("joint", linkage_.joints, i);
+      check_joint(joint, path, problems_);
+      const std::string who = "joint " + quoted(joint.name);
+      if (!is_body(joint.parent))
+        report_unknown_link(path + ".parent", who, "parent", joint.parent);
+      if (joint.child == kGround) {
+        report(path + ".child", who + ": the child must be a moving link, got 'ground'",
+               "swap parent and child");
+      } else if (!is_link(joint.child)) {
+        report_unknown_link(path + ".child", who, "child", joint.child);
+      } else if (joint.child == joint.parent) {
+        report(path + ".child", who + ": parent and child are the same link '" + joint.child + "'",
+               "a joint connects two links");
+      }
+    }
+  }
+
+  void report_unknown_link(const std::string& path, const std::string& who, const char* key,
+                           const std::string& name) {
+    report(path, who + ": " + key + " is not a link, got '" + name + "'",
+           suggest_name(name, body_names()));
+  }
+
+  // Every link is the child of exactly one joint, and the parents lead to ground.
+  void check_tree() {
+    const std::size_t count = linkage_.links.size();
+    std::vector<const Joint*> carrier(count, nullptr);
+    bool child_is_broken = false;
+    for (std::size_t j = 0; j < linkage_.joints.size(); ++j) {
+      const Joint& joint = linkage_.joints[j];
+      const std::size_t child = index_of_link(joint.child);
+      if (child == count || joint.child == joint.parent) {
+        child_is_broken = true;
+      } else if (carrier[child] != nullptr) {
+        child_is_broken = true;
+        report(path_of("joint", linkage_.joints, j) + ".child",
+               "joint " + quoted(joint.name) + ": link '" + joint.child +
+                   "' is already the child of joint '" + carrier[child]->name + "'",
+               "a link hangs on one joint; the joint that shuts the loop is a [[closure]]");
+      } else {
+        carrier[child] = &joint;
+      }
+    }
+    // A joint with a wrong child explains a link without a joint.
+    if (!child_is_broken) report_orphans(carrier);
+    report_loops(carrier);
+  }
+
+  std::size_t index_of_link(const std::string& name) const {
+    const auto found = std::find_if(linkage_.links.begin(), linkage_.links.end(),
+                                    [&](const Link& link) { return link.name == name; });
+    return static_cast<std::size_t>(found - linkage_.links.begin());
+  }
+
+  void report_orphans(const std::vector<const Joint*>& carrier) {
+    for (std::size_t i = 0; i < carrier.size(); ++i) {
+      const std::string& name = linkage_.links[i].name;
+      if (carrier[i] != nullptr || index_of_link(name) != i || name == kGround) continue;
+      report(path_of("link", linkage_.links, i),
+             "link " + quoted(name) + " is not connected: it is the child of no joint",
+             "add a [[joint]] with child = \"" + name + "\"");
+    }
+  }
+
+  // Follows the parents of every link; a walk that meets itself is a loop, reported once.
+  void report_loops(const std::vector<const Joint*>& carrier) {
+    const std::size_t count = carrier.size();
+    std::vector<std::size_t> seen_by(count, count);
+    for (std::size_t start = 0; start < count; ++start) {
+      std::size_t link = start;
+      while (link < count && seen_by[link] == count && carrier[link] != nullptr) {
+        seen_by[link] = start;
+        link = index_of_link(carrier[link]->parent);
+      }
+      const bool met_itself = link < count && seen_by[link] == start && carrier[link] != nullptr;
+      if (met_itself) report_loop(carrier, link);
+    }
+  }
+
+  void report_loop(const std::vector<const Joint*>& carrier, std::size_t start) {
+    const Joint* first = carrier[start];
+    std::string loop = linkage_.links[start].name;
+    std::size_t link = start;
+    do {
+      link = index_of_link(carrier[link]->parent);
+      loop += " - " + linkage_.links[link].name;
+      if (carrier[link] < first) first = carrier[link];
+    } while (link != start);
+    const auto index = static_cast<std::size_t>(first - linkage_.joints.data());
+    report(path_of("joint", linkage_.joints, index),
+           "joint " + quoted(first->name) + ": the links " + loop +
+               " form a loop that never reaches ground",
+           "joints form a tree that starts at ground; shut loops with [[closure]]");
+  }
+
+  void check_closures() {
+    for (std::size_t i = 0; i < linkage_.closures.size(); ++i) {
+      const Closure& closure = linkage_.closures[i];
+      const std::string path = path_of("closure", linkage_.closures, i);
+      const std::string who = "closure " + quoted(closure.name);
+      check_closure(closure, path, problems_);
+      const bool first_is_known = is_body(closure.first.link);
+      const bool second_is_known = is_body(closure.second.link);
+      if (!first_is_known) {
+        report_unknown_link(path + ".first.link", who, "first.link", closure.first.link);
+      }
+      if (!second_is_known) {
+        report_unknown_link(path + ".second.link", who, "second.link", closure.second.link);
+      }
+      if (first_is_known && second_is_known && closure.first.link == closure.second.link) {
+        report(path + ".second.link",
+               who + ": both ends are on the same link '" + closure.second.link + "'",
+               "a closure connects two different links");
+      }
+    }
+  }
+
+  void check_loads() {
+    for (std::size_t i = 0; i < linkage_.loads.size(); ++i) {
+      const Load& load = linkage_.loads[i];
+      const std::string path = path_of("load", linkage_.loads, i);
+      check_load(load, path, problems_);
+      const bool on_joint = load.type == LoadType::drive || load.type == LoadType::resistance;
+      if (on_joint) {
+        check_load_on_joint(load, path);
+      } else if (load.link == kGround || !is_link(load.link)) {
+        std::vector<std::string> names = body_names();
+        names.erase(names.begin());
+        report(path + ".link",
+               "load " + quoted(load.name) + ": link is not a moving link, got '" + load.link + "'",
+               suggest_name(load.link, names));
+      }
+    }
+  }
+
+  void check_load_on_joint(const Load& load, const std::string& path) {
+    const std::string who = "load " + quoted(load.name);
+    const Joint* joint = find_joint(load.joint);
+    if (joint == nullptr) {
+      std::vector<std::string> names;
+      for (const Joint& known : linkage_.joints) names.push_back(known.name);
+      report(path + ".joint", who + ": joint does not exist, got '" + load.joint + "'",
+             suggest_name(load.joint, names));
+      return;
+    }
+    const int count = velocity_count(joint->type);
+    if (load.coordinate >= 0 && load.coordinate < count) return;
+    report(path + ".coordinate",
+           who + ": joint '" + joint->name + "' has " + std::to_string(count) +
+               " coordinates, counted from 0, got " + std::to_string(load.coordinate),
+           count == 0 ? "a fixed joint cannot carry a load; choose another joint"
+                      : "choose a coordinate from 0 to " + std::to_string(count - 1));
+  }
+
+  const Linkage& linkage_;
+  std::vector<Problem> problems_;
+};
+
+}  // namespace
+
+std::vector<Problem> check(const Linkage& linkage) {
+  return Checker(linkage).run();
+}
+
+}  // namespace linkstudy

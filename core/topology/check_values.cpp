@@ -1,0 +1,223 @@
+#include "core/topology/check_values.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <cmath>
+#include <cstdio>
+
+namespace linkstudy {
+namespace {
+
+constexpr double kRotationTolerance = 1.0e-6;
+constexpr double kUnitTolerance = 1.0e-6;
+constexpr double kTriangleTolerance = 1.0e-3;
+
+std::string text_of(double value) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.9g", value);
+  return buffer;
+}
+
+// Collects the problems of one record: its path, and its title such as "joint 'A'".
+struct Record {
+  std::string path;
+  std::string title;
+  std::vector<Problem>& problems;
+
+  void report(const std::string& key, const std::string& message, const std::string& remedy) {
+    problems.push_back({path + "." + key, title + ": " + message, remedy});
+  }
+  void require_positive(const std::string& key, double value) {
+    if (std::isfinite(value) && value > 0.0) return;
+    report(key, key + " must be positive, got " + text_of(value), "give a number above 0");
+  }
+  void require_not_negative(const std::string& key, double value) {
+    if (std::isfinite(value) && value >= 0.0) return;
+    report(key, key + " must not be negative, got " + text_of(value), "give 0 or more");
+  }
+  void require_finite(const std::string& key, bool finite) {
+    if (!finite) report(key, key + " must be finite", "replace NaN and infinity by numbers");
+  }
+  void require_unit(const std::string& key, double norm) {
+    if (std::abs(norm - 1.0) <= kUnitTolerance) return;
+    report(key, key + " must have length 1, got length " + text_of(norm), "normalise it");
+  }
+  void require_frame(const std::string& key, const Frame& frame) {
+    require_finite(key + ".position", frame.position.allFinite());
+    const std::string fault = rotation_fault(frame.rotation);
+    if (!fault.empty()) {
+      report(key + ".rotation", key + ".rotation " + fault,
+             "columns are the axes of the frame: right-handed, of length 1, perpendicular");
+    }
+  }
+};
+
+bool all_finite(const std::vector<double>& values) {
+  for (const double value : values) {
+    if (!std::isfinite(value)) return false;
+  }
+  return true;
+}
+
+void check_start(const Joint& joint, Record& record) {
+  const auto nq = static_cast<std::size_t>(position_count(joint.type, joint.coordinates));
+  const auto nv = static_cast<std::size_t>(velocity_count(joint.type));
+  const auto require_count = [&](const char* key, std::size_t count, std::size_t expected) {
+    if (count == 0 || count == expected) return;
+    record.report(key,
+                  std::string(key) + " must have " + std::to_string(expected) +
+                      " entries for this joint, got " + std::to_string(count),
+                  "give one entry for each coordinate");
+  };
+  require_count("initial.position", joint.position.size(), nq);
+  require_count("initial.velocity", joint.velocity.size(), nv);
+  record.require_finite("initial.position", all_finite(joint.position));
+  record.require_finite("initial.velocity", all_finite(joint.velocity));
+  if (nq == nv || joint.position.size() != nq) return;
+  const Eigen::Map<const Eigen::Vector4d> quaternion(joint.position.data() + nq - 4);
+  record.require_unit("initial.position", quaternion.norm());
+}
+
+void check_sde(const Closure& closure, Record& record) {
+  static constexpr const char* kNames[kDirections] = {"x", "y", "z", "phi", "theta", "psi"};
+  const Sde& sde = closure.sde;
+  bool any = false;
+  for (std::size_t d = 0; d < kDirections; ++d) {
+    record.require_not_negative(std::string("sde.stiffness.") + kNames[d], sde.stiffness[d]);
+    record.require_not_negative(std::string("sde.damping.") + kNames[d], sde.damping[d]);
+    any = any || sde.stiffness[d] > 0.0;
+  }
+  if (!any) {
+    record.report("sde.stiffness", "no direction of the spring-damping element is stiff",
+                  "give a positive stiffness in at least one direction");
+  }
+  if (sde.damping_ratio) record.require_not_negative("sde.damping_ratio", *sde.damping_ratio);
+  constexpr unsigned translations = 1u << kX | 1u << kY | 1u << kZ;
+  const bool point = (blocked_directions(closure.type) & translations) == translations;
+  if (sde.form != SdeForm::directional && !point) {
+    record.report("sde.form",
+                  "line_of_centres and three_springs hold a point in all directions, "
+                  "which this closure type leaves free in one",
+                  "use form = \"directional\"");
+  }
+  if (sde.form != SdeForm::three_springs) return;
+  for (int i = 0; i < 3; ++i) record.require_unit("sde.directions", sde.directions.row(i).norm());
+  if (!(std::abs(sde.directions.determinant()) > kRotationTolerance)) {
+    record.report("sde.directions", "the three directions lie in one plane",
+                  "give three independent directions");
+  }
+}
+
+void check_table(const Course& course, Record& record) {
+  if (course.times.empty() || course.times.size() != course.values.size()) {
+    record.report("course.values",
+                  "course.times and course.values must have the same length, got " +
+                      std::to_string(course.times.size()) + " and " +
+                      std::to_string(course.values.size()),
+                  "give one value for each time");
+  }
+  for (std::size_t i = 1; i < course.times.size(); ++i) {
+    if (course.times[i] > course.times[i - 1]) continue;
+    record.report("course.times." + std::to_string(i),
+                  "course.times must increase, got " + text_of(course.times[i]) + " after " +
+                      text_of(course.times[i - 1]),
+                  "sort the table by time, each time once");
+    break;
+  }
+  record.require_finite("course.times", all_finite(course.times));
+  record.require_finite("course.values", all_finite(course.values));
+}
+
+}  // namespace
+
+std::string inertia_fault(const Eigen::Matrix3d& inertia) {
+  if (!inertia.allFinite()) return "must be finite";
+  const double size = inertia.cwiseAbs().maxCoeff();
+  if ((inertia - inertia.transpose()).cwiseAbs().maxCoeff() > 1.0e-12 * size) {
+    return "must be symmetric";
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(inertia, Eigen::EigenvaluesOnly);
+  const Eigen::Vector3d moments = solver.eigenvalues();  // ascending
+  const std::string got = ", got principal moments " + text_of(moments[0]) + ", " +
+                          text_of(moments[1]) + ", " + text_of(moments[2]) + " kg m^2";
+  if (!(moments[0] > 0.0)) return "must be positive definite" + got;
+  if (moments[2] > moments[0] + moments[1] + kTriangleTolerance * moments[2]) {
+    return "belongs to no body: a principal moment exceeds the sum of the other two" + got;
+  }
+  return {};
+}
+
+std::string rotation_fault(const Eigen::Matrix3d& rotation) {
+  if (!rotation.allFinite()) return "must be finite";
+  const Eigen::Matrix3d product = rotation.transpose() * rotation;
+  const double off = (product - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  if (off > kRotationTolerance) {
+    return "must be orthonormal to 1e-6, got an error of " + text_of(off);
+  }
+  if (rotation.determinant() < 0.0) {
+    return "must be a rotation, got a reflection (determinant -1)";
+  }
+  return {};
+}
+
+void check_link(const Link& link, const std::string& path, std::vector<Problem>& problems) {
+  Record record{path, "link '" + link.name + "'", problems};
+  record.require_positive("mass", link.mass);
+  record.require_finite("center_of_mass", link.center_of_mass.allFinite());
+  const std::string fault = inertia_fault(link.inertia);
+  if (fault.empty()) return;
+  record.report("inertia", "inertia " + fault,
+                "give moments about the centre of mass; a thin rod or a point mass needs small "
+                "positive ones");
+}
+
+void check_joint(const Joint& joint, const std::string& path, std::vector<Problem>& problems) {
+  Record record{path, "joint '" + joint.name + "'", problems};
+  record.require_frame("frame", joint.frame);
+  record.require_frame("child_frame", joint.child_frame);
+  const bool advances = std::isfinite(joint.pitch) && joint.pitch != 0.0;
+  if (joint.type == JointType::screw && !advances) {
+    record.report("pitch", "pitch of a screw joint must not be zero, got " + text_of(joint.pitch),
+                  "give the advance per turn, or use a revolute joint");
+  }
+  check_start(joint, record);
+}
+
+void check_closure(const Closure& closure, const std::string& path,
+                   std::vector<Problem>& problems) {
+  Record record{path, "closure '" + closure.name + "'", problems};
+  if (blocked_directions(closure.type) == 0) {
+    const bool is_free = closure.type == JointType::free;
+    record.report("type",
+                  std::string("type of a closure cannot be ") + (is_free ? "free" : "screw"),
+                  "use spherical, revolute, universal, prismatic, cylindrical, planar or fixed");
+  }
+  record.require_frame("first", closure.first.frame);
+  record.require_frame("second", closure.second.frame);
+  record.require_not_negative("cut.alpha", closure.alpha);
+  record.require_not_negative("cut.beta", closure.beta);
+  if (closure.model == ClosureModel::sde) check_sde(closure, record);
+}
+
+void check_load(const Load& load, const std::string& path, std::vector<Problem>& problems) {
+  Record record{path, "load '" + load.name + "'", problems};
+  if (load.type == LoadType::resistance) {
+    record.require_positive("law.at_speed", load.law.at_speed);
+    record.require_finite("law.value", std::isfinite(load.law.value));
+    return;
+  }
+  if (load.type != LoadType::drive) {
+    record.require_unit("direction", load.direction.norm());
+    record.require_finite("point", load.point.allFinite());
+  }
+  const CourseShape shape = load.course.shape;
+  if (shape == CourseShape::table) {
+    check_table(load.course, record);
+    return;
+  }
+  record.require_finite("course.value", std::isfinite(load.course.value));
+  if (shape != CourseShape::constant)
+    record.require_positive("course.duration", load.course.duration);
+}
+
+}  // namespace linkstudy
