@@ -1,0 +1,64 @@
+#include "study/store/directory.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <system_error>
+
+#include "study/store/journal.h"
+#include "study/store/store_error.h"
+
+namespace linkstudy {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array kDerivedNames = {kResultsName, kResolvedName, kReportName};
+
+bool is_ours(const std::string& name) {
+  return name == kLogName || std::ranges::any_of(kDerivedNames, [&](const std::string& derived) {
+           return name == derived || name == derived + ".tmp";
+         });
+}
+
+void require_ours(const fs::path& directory) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(directory)) {
+    const std::string name = entry.path().filename().string();
+    if (!is_ours(name)) {
+      throw StoreError(fmt::format(
+          "{}: the directory holds other files ('{}') and no study; choose a new or an empty "
+          "directory with -o",
+          directory.string(), name));
+    }
+  }
+}
+
+}  // namespace
+
+void prepare_directory(const fs::path& directory) {
+  try {
+    if (fs::exists(directory) && !fs::is_directory(directory)) {
+      throw StoreError(
+          fmt::format("{}: is a file; choose a directory with -o", directory.string()));
+    }
+    fs::create_directories(directory);
+    if (!fs::exists(directory / kJournalName)) {
+      require_ours(directory);
+    }
+  } catch (const fs::filesystem_error& error) {
+    throw StoreError(fmt::format("{}: cannot use this directory: {}; choose another with -o",
+                                 directory.string(), error.code().message()));
+  }
+}
+
+void remove_derived_files(const fs::path& directory) {
+  for (const std::string name : kDerivedNames) {
+    std::error_code ignored;  // what cannot be removed is replaced or reported when it is written
+    fs::remove(directory / name, ignored);
+    fs::remove(directory / (name + ".tmp"), ignored);
+  }
+}
+
+}  // namespace linkstudy

@@ -1,0 +1,205 @@
+#include "study/store/journal.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "study/record/digest.h"
+#include "study/store/directory.h"
+#include "study/store/store_error.h"
+
+namespace linkstudy {
+namespace {
+
+constexpr std::uint64_t kSyncRecords = 64;
+constexpr std::chrono::milliseconds kSyncInterval{100};
+
+template <class Item>
+void replace_or_add(std::vector<Item>& items, Item item) {
+  const auto found = std::ranges::find(items, item.name, &Item::name);
+  if (found != items.end()) {
+    *found = std::move(item);
+  } else {
+    items.push_back(std::move(item));
+  }
+}
+
+// Sorts a record into the contents.
+struct Collect {
+  JournalContents& contents;
+
+  void operator()(Evaluation&& evaluation) const {
+    contents.evaluations.push_back(std::move(evaluation));
+    ++contents.evaluations_since_start;
+  }
+  void operator()(TraceSet&& set) const { replace_or_add(contents.traces, std::move(set)); }
+  void operator()(NamedText&& text) const { replace_or_add(contents.texts, std::move(text)); }
+  void operator()(ProvenanceRow&& row) const {
+    contents.provenance.push_back(std::move(row));
+    contents.evaluations_since_start = 0;
+  }
+  void operator()(StudyDescription&& description) const {
+    contents.description = std::move(description);
+  }
+};
+
+void require_readable(const JournalHeader& header, const std::filesystem::path& path) {
+  if (header.state == HeaderState::foreign) {
+    throw StoreError(fmt::format("{}: not a journal of linkstudy; choose another directory with -o",
+                                 path.string()));
+  }
+  if (header.state == HeaderState::damaged) {
+    throw StoreError(
+        fmt::format("{}: the header is damaged; overwrite the study with --fresh", path.string()));
+  }
+  if (header.state == HeaderState::other_version) {
+    throw StoreError(fmt::format(
+        "{}: journal version {}, this program reads version {}; continue with the program that "
+        "wrote it or overwrite the study with --fresh",
+        path.string(), header.version, kJournalVersion));
+  }
+}
+
+File open_and_lock(const std::filesystem::path& directory) {
+  File file(directory / kJournalName, O_RDWR | O_CREAT);
+  if (!file.try_lock()) {
+    throw StoreError(
+        fmt::format("{}: another run is writing here; wait for it or choose another directory "
+                    "with -o",
+                    directory.string()));
+  }
+  return file;
+}
+
+}  // namespace
+
+JournalContents parse_journal(std::string_view bytes, const std::filesystem::path& path) {
+  JournalContents contents;
+  const JournalHeader header = decode_header(bytes);
+  require_readable(header, path);
+  if (header.state == HeaderState::torn) {
+    contents.dropped_bytes = bytes.size();
+    return contents;
+  }
+  contents.input_sha256 = header.input_sha256;
+  std::size_t at = kJournalHeaderSize;
+  while (true) {
+    const std::string_view payload = next_payload(bytes.substr(at));
+    if (payload.empty()) {
+      break;
+    }
+    std::visit(Collect{contents}, decode_payload(payload));
+    at += kRecordPrefixSize + payload.size();
+  }
+  contents.evaluations = latest_by_id(std::move(contents.evaluations));
+  contents.valid_bytes = at;
+  contents.dropped_bytes = bytes.size() - at;
+  return contents;
+}
+
+JournalContents read_journal(const std::filesystem::path& directory) {
+  const std::filesystem::path path = directory / kJournalName;
+  if (!std::filesystem::exists(path)) {
+    throw StoreError(
+        fmt::format("{}: holds no study ({} is missing)", directory.string(), kJournalName));
+  }
+  return parse_journal(read_file(path), path);
+}
+
+Journal::Journal(const std::filesystem::path& directory, const std::string& input_sha256,
+                 OpenMode mode)
+    : file_(open_and_lock(directory)) {
+  const std::string header = encode_header(input_sha256);
+  const JournalHeader found = decode_header(file_.read_all());
+  // Even --fresh overwrites nothing that is not ours.
+  const bool overwrite = mode == OpenMode::fresh && found.state != HeaderState::foreign;
+  if (overwrite || found.state == HeaderState::torn) {
+    start(header);
+    contents_.input_sha256 = input_sha256;
+  } else {
+    resume(input_sha256);
+  }
+}
+
+Journal::~Journal() {
+  try {
+    if (!failed_ && appended_ != acknowledged_) {
+      sync();
+    }
+  } catch (const StoreError&) {
+    // The records are not acknowledged; whoever needs to know calls sync().
+  }
+}
+
+void Journal::start(const std::string& header) {
+  remove_derived_files(file_.path().parent_path());
+  file_.truncate(0);
+  file_.write_all(header);
+  file_.sync();
+  sync_directory(file_.path().parent_path());
+  end_ = header.size();
+}
+
+void Journal::resume(const std::string& input_sha256) {
+  contents_ = parse_journal(file_.read_all(), file_.path());
+  if (contents_.input_sha256 != input_sha256) {
+    throw StoreError(fmt::format(
+        "{}: holds a study of another input (digest {}..., yours is {}...); choose another "
+        "directory with -o or overwrite it with --fresh",
+        file_.path().parent_path().string(), contents_.input_sha256.substr(0, 12),
+        input_sha256.substr(0, 12)));
+  }
+  end_ = contents_.valid_bytes;
+  file_.truncate(end_);
+  file_.sync();
+}
+
+void Journal::require_usable() const {
+  if (failed_) {
+    throw StoreError(
+        fmt::format("{}: takes no more records after an error of writing", file_.path().string()));
+  }
+}
+
+void Journal::append(const JournalRecord& record) {
+  require_usable();
+  const std::string bytes = encode_record(record);
+  try {
+    file_.write_all(bytes);
+  } catch (const StoreError&) {
+    failed_ = true;
+    file_.truncate(end_);
+    throw;
+  }
+  end_ += bytes.size();
+  if (appended_ == acknowledged_) {
+    oldest_unsynced_ = Clock::now();
+  }
+  ++appended_;
+  if (appended_ - acknowledged_ >= kSyncRecords) {
+    sync();
+  } else {
+    sync_if_due();
+  }
+}
+
+void Journal::sync() {
+  require_usable();
+  try {
+    file_.sync_data();
+  } catch (const StoreError&) {
+    failed_ = true;  // the kernel forgets what it could not write: a second try proves nothing
+    throw;
+  }
+  acknowledged_ = appended_;
+}
+
+void Journal::sync_if_due() {
+  if (appended_ != acknowledged_ && Clock::now() - oldest_unsynced_ >= kSyncInterval) {
+    sync();
+  }
+}
+
+}  // namespace linkstudy

@@ -1,0 +1,64 @@
+// All that a study leaves behind, as plain records: what results.h5 holds, what tables are made of.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "study/record/evaluation.h"
+#include "study/store/data_group.h"
+
+namespace linkstudy {
+
+enum class RunStatus { running, complete, interrupted };
+
+// What was asked for; constant over all runs into one directory.
+struct StudyDescription {
+  std::string name;  // of the study, free text
+  std::string kind;  // "study", "tune", "converge"
+  std::uint64_t seed = 0;
+  std::vector<Parameter> parameters;
+  std::vector<Response> responses;
+};
+
+// Time histories of one run. The trace named "time" is their axis, when there is one.
+struct TraceSet {
+  std::string name;              // "reference", "evaluation_12"
+  std::int64_t evaluation = -1;  // id, or -1 where the run is none of the design
+  std::vector<Trace> traces;
+};
+
+struct NamedText {
+  std::string name;
+  std::string text;
+};
+
+// One start or resume of the program on a directory.
+struct ProvenanceRow {
+  std::string event;         // "start", "resume"
+  double time_unix_s = 0.0;  // s since 1970-01-01 UTC
+  std::uint64_t total = 0;   // evaluations in the design; 0 where not known beforehand
+  std::uint32_t ranks = 1;
+  std::string host;
+  std::string program_version;
+  std::string git_revision;
+  std::string command;
+};
+
+struct StudyResults {
+  StudyDescription description;
+  RunStatus status = RunStatus::running;
+  std::string program_version;
+  std::string git_revision;
+  std::string input_sha256;
+  std::string results_digest;  // set by the writer and by the reader of the file
+  std::vector<Evaluation> evaluations;
+  std::vector<TraceSet> references;
+  std::vector<TraceSet> traces;
+  std::vector<DataGroup> tunings;       // subgroups scan, rounds; the certificate as attributes
+  std::vector<DataGroup> convergences;  // one table each
+  std::vector<ProvenanceRow> provenance;
+  std::vector<NamedText> texts;  // input text, resolved input, build, machine
+};
+
+}  // namespace linkstudy
