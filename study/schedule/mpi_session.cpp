@@ -63,6 +63,8 @@ MpiSession::MpiSession() : host_(find_host_name()) {
 }
 
 MpiSession::~MpiSession() {
+  // Nobody would answer MPI_Finalize any more.
+  if (job_is_dying()) leave_now(agreed_code_);
   MPI_Finalize();
 }
 
@@ -114,11 +116,12 @@ int MpiSession::agree_exit_code(int code) {
   MPI_Request request = MPI_REQUEST_NULL;
   MPI_Iallreduce(&code, &highest, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD, &request);
   wait_asleep(request);
+  agreed_code_ = highest;
   return highest;
 }
 
 void MpiSession::finalize() {
-  MPI_Finalize();
+  if (!job_is_dying()) MPI_Finalize();
 }
 
 void MpiSession::kill_all(int code) {

@@ -1,9 +1,10 @@
 // Open MPI between construction and destruction (MPI_THREAD_FUNNELED: only the main thread calls).
 //
-// A rank that dies ends the whole job: the survivors get SIGCONT and SIGTERM, and SIGKILL about one
-// second later (odls_base_sigkill_timeout). mpirun does the same when it is sent SIGTERM or SIGINT
-// itself, whereas it passes SIGUSR1 on and leaves the ranks their time. So the journal is synced in
-// that second (PoolOptions::on_terminate) and the next start resumes.
+// A rank that dies ends the whole job: the survivors get SIGCONT, one second later SIGTERM, and one
+// more second later SIGKILL (odls_base_sigkill_timeout). So the journal is synced in that second
+// (PoolOptions::on_terminate) and the next start resumes. mpirun does the same when it is sent
+// SIGTERM or SIGINT itself, and exits with 1 whatever its ranks say; SIGUSR1 it passes on, leaves
+// the ranks their time and exits with their 75: that is the signal for batch scripts.
 #pragma once
 
 #include <list>
@@ -11,6 +12,7 @@
 #include <optional>
 #include <string>
 
+#include "study/schedule/stop_signals.h"
 #include "study/schedule/transport.h"
 
 namespace linkstudy {
@@ -42,6 +44,7 @@ class MpiSession final : public Transport {
   int size_ = 1;
   int nodes_ = 1;
   std::string host_;
+  int agreed_code_ = exit_resumable;
   std::list<std::unique_ptr<Pending>> pending_;
 };
 

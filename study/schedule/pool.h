@@ -22,12 +22,11 @@
 #include <vector>
 
 #include "study/schedule/compute_thread.h"
+#include "study/schedule/stop_signals.h"
 #include "study/schedule/task.h"
 #include "study/schedule/transport.h"
 
 namespace linkstudy {
-
-inline constexpr int exit_resumable = 75;
 
 struct PoolOptions {
   // No work is handed out from then on.

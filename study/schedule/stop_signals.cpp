@@ -12,20 +12,37 @@ namespace {
 
 constexpr std::int64_t one_press_ns = 100'000'000;
 
+// Between SIGCONT and SIGTERM lies mpirun's odls_base_sigkill_timeout, by default one second.
+constexpr std::int64_t ending_ns = 15'000'000'000;
+constexpr std::int64_t long_ago_ns = -ending_ns;
+
 std::atomic<int> level{0};
 std::atomic<int> last_signal{0};
-std::atomic<std::int64_t> last_time_ns{-one_press_ns};
+std::atomic<std::int64_t> last_time_ns{long_ago_ns};
+std::atomic<std::int64_t> continue_time_ns{long_ago_ns};
+std::atomic<bool> dying{false};
 static_assert(std::atomic<int>::is_always_lock_free &&
               std::atomic<std::int64_t>::is_always_lock_free);
 
 // Only calls that are allowed in a signal handler: lock-free atomics and clock_gettime.
-void count_signal(int number) {
-  const int saved = errno;
+std::int64_t find_time_ns() {
   timespec now{};
   clock_gettime(CLOCK_MONOTONIC, &now);
-  const std::int64_t now_ns = std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
+  return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
+}
+
+void note_continue(int) {
+  const int saved = errno;
+  continue_time_ns.store(find_time_ns());
+  errno = saved;
+}
+
+void count_signal(int number) {
+  const int saved = errno;
+  const std::int64_t now_ns = find_time_ns();
   const std::int64_t before = last_time_ns.exchange(now_ns);
   if (level.load() == 0 || now_ns - before >= one_press_ns) ++level;
+  if (number == SIGTERM && now_ns - continue_time_ns.load() < ending_ns) dying.store(true);
   last_signal.store(number);
   errno = saved;
 }
@@ -40,10 +57,16 @@ StopSignals::StopSignals() {
   sigemptyset(&action.sa_mask);
   for (const int number : {SIGTERM, SIGUSR1, SIGINT}) sigaddset(&action.sa_mask, number);
   for (const int number : {SIGTERM, SIGUSR1, SIGINT}) sigaction(number, &action, nullptr);
+  action.sa_handler = note_continue;
+  sigaction(SIGCONT, &action, nullptr);
 }
 
 int stop_level() {
   return level.load();
+}
+
+bool job_is_dying() {
+  return dying.load();
 }
 
 int last_stop_signal() {
@@ -57,7 +80,9 @@ void request_stop() {
 void reset_stop() {
   level.store(0);
   last_signal.store(0);
-  last_time_ns.store(-one_press_ns);
+  last_time_ns.store(long_ago_ns);
+  continue_time_ns.store(long_ago_ns);
+  dying.store(false);
 }
 
 }  // namespace linkstudy

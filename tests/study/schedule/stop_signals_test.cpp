@@ -36,6 +36,19 @@ TEST(Stop_signals, Leave_a_continue_signal_harmless) {
   const StopSignals signals;
   raise(SIGCONT);
   EXPECT_EQ(stop_level(), 0);
+  EXPECT_FALSE(job_is_dying());
+}
+
+TEST(Stop_signals, Tell_a_dying_job_by_the_continue_signal_ahead_of_the_end) {
+  const StopSignals signals;
+  raise(SIGTERM);
+  EXPECT_FALSE(job_is_dying());
+  raise(SIGCONT);
+  raise(SIGUSR1);
+  EXPECT_FALSE(job_is_dying());
+  raise(SIGTERM);
+  EXPECT_TRUE(job_is_dying());
+  reset_stop();
 }
 
 TEST(Stop_requests, Count_like_signals) {
