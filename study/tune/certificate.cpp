@@ -1,0 +1,181 @@
+#include "study/tune/certificate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "study/tune/judge_claim.h"
+#include "study/tune/scan_window.h"
+
+namespace linkstudy::tuning {
+namespace {
+
+// Ids of both steps at a point, as far as they were evaluated.
+void add_ids(const EvaluationLog& log, const std::vector<double>& x, Claim& claim) {
+  for (const double factor : {1.0, 0.5}) {
+    if (const Observation* observation = log.find(x, factor)) {
+      claim.evaluations.push_back(observation->answer.id);
+    }
+  }
+}
+
+bool between(const std::vector<double>& x, const std::vector<double>& low,
+             const std::vector<double>& high) {
+  for (std::size_t j = 0; j < x.size(); ++j) {
+    if (x[j] < low[j] || x[j] > high[j]) {
+      return false;
+    }
+  }
+  return true;
+}
+
+Claim collect_minimality(const CertificateTerms& terms, const EvaluationLog& log) {
+  Claim claim{"C1", fmt::format("every k_i (1 - {:g}) alone fails", terms.delta), {}, {}, {}};
+  for (std::size_t i = 0; i < terms.point.size(); ++i) {
+    add_ids(log, reduced_point(terms, i), claim);
+  }
+  return claim;
+}
+
+Claim collect_scan(const CertificateTerms& terms, const EvaluationLog& log) {
+  Claim claim{"C2", "nothing of the declared scan below k* matches", {}, {}, {}};
+  for (const std::vector<double>& x : scan_below(terms)) {
+    add_ids(log, x, claim);
+  }
+  return claim;
+}
+
+Claim collect_neighbourhood(const CertificateTerms& terms, const EvaluationLog& log) {
+  Claim claim{"C3", "the error falls in k about k* by more than the noise", {}, {}, {}};
+  for (std::size_t i = 0; i < terms.point.size(); ++i) {
+    for (const Observation& observation : log.observations()) {
+      const Request& request = observation.request;
+      const bool inside = between(request.x, terms.lower_neighbours[i], terms.upper_neighbours[i]);
+      if (inside && (request.step_factor == 1.0 || request.x == terms.point)) {
+        claim.evaluations.push_back(observation.answer.id);
+      }
+    }
+  }
+  return claim;
+}
+
+void conclude(Certificate& certificate) {
+  certificate.verdict = Verdict::certified;
+  certificate.reason.clear();
+  for (const Verdict worst : {Verdict::refuted, Verdict::inconclusive}) {
+    for (const Claim& claim : certificate.claims) {
+      if (claim.verdict == worst) {
+        certificate.verdict = worst;
+        certificate.reason = claim.name + ": " + claim.reason;
+        return;
+      }
+    }
+  }
+}
+
+}  // namespace
+
+std::string_view name_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::certified:
+      return "certified";
+    case Verdict::refuted:
+      return "refuted";
+    case Verdict::inconclusive:
+      break;
+  }
+  return "inconclusive";
+}
+
+CertificateTerms make_terms(const TuningProblem& problem, const TuningOptions& options,
+                            const std::vector<double>& point, double margin_decades) {
+  CertificateTerms terms{point, problem.variables, problem.components, options.delta, {}, {}, {}};
+  for (const double value : make_scan_values(problem.variables.front(), options.scan)) {
+    terms.scan.push_back({value});
+  }
+  const double up = std::min(options.neighbourhood, 0.5 * margin_decades);
+  for (std::size_t i = 0; i < point.size(); ++i) {
+    const TunedVariable& variable = problem.variables[i];
+    terms.lower_neighbours.push_back(point);
+    terms.upper_neighbours.push_back(point);
+    terms.lower_neighbours[i][i] =
+        std::max(variable.low, point[i] * std::pow(10.0, -options.neighbourhood));
+    terms.upper_neighbours[i][i] = std::min(variable.high, point[i] * std::pow(10.0, up));
+  }
+  return terms;
+}
+
+std::vector<Request> list_requests(const CertificateTerms& terms, const EvaluationLog& log) {
+  std::vector<Request> requests = {{terms.point, 1.0, "certificate"},
+                                   {terms.point, 0.5, "certificate"}};
+  for (std::size_t i = 0; i < terms.point.size(); ++i) {
+    const std::vector<double> reduced = reduced_point(terms, i);
+    if (reduced[i] >= terms.variables[i].low) {
+      requests.push_back({reduced, 1.0, "certificate"});
+    }
+    requests.push_back({terms.lower_neighbours[i], 1.0, "certificate"});
+    requests.push_back({terms.upper_neighbours[i], 1.0, "certificate"});
+  }
+  std::vector<std::vector<double>> suspects = scan_below(terms);
+  for (std::size_t i = 0; i < terms.point.size(); ++i) {
+    suspects.push_back(reduced_point(terms, i));
+  }
+  for (const std::vector<double>& x : suspects) {
+    const Observation* base = log.find(x, 1.0);
+    if (base != nullptr && compute_ratio(base->answer, terms.components) <= 1.0) {
+      requests.push_back({x, 0.5, "certificate"});
+    }
+  }
+  return requests;
+}
+
+Certificate make_certificate(const CertificateTerms& terms, const EvaluationLog& log) {
+  Certificate certificate;
+  certificate.terms = terms;
+  certificate.claims[0] = {"C0", "k* matches at the step and at half of it", {}, {}, {}};
+  add_ids(log, terms.point, certificate.claims[0]);
+  certificate.claims[1] = collect_minimality(terms, log);
+  certificate.claims[2] = collect_scan(terms, log);
+  certificate.claims[3] = collect_neighbourhood(terms, log);
+  for (Claim& claim : certificate.claims) {
+    std::vector<Observation> evidence;
+    for (const Observation& observation : log.observations()) {
+      const auto& ids = claim.evaluations;
+      if (std::find(ids.begin(), ids.end(), observation.answer.id) != ids.end()) {
+        evidence.push_back(observation);
+      }
+    }
+    judge_claim(terms, evidence, claim);
+  }
+  conclude(certificate);
+  return certificate;
+}
+
+Certificate check_certificate(const Certificate& certificate, const Lookup& lookup) {
+  Certificate checked = certificate;
+  for (std::size_t i = 0; i < checked.claims.size(); ++i) {
+    Claim& claim = checked.claims[i];
+    std::vector<Observation> evidence;
+    for (const std::uint64_t id : claim.evaluations) {
+      if (const std::optional<Observation> observation = lookup(id)) {
+        evidence.push_back(*observation);
+      }
+    }
+    judge_claim(checked.terms, evidence, claim);
+    const Verdict recorded = certificate.claims[i].verdict;
+    if (claim.verdict != recorded) {
+      claim.reason = fmt::format("recorded as {}, but {}", name_of(recorded), claim.reason);
+      claim.verdict = Verdict::refuted;
+    }
+  }
+  conclude(checked);
+  if (checked.verdict != certificate.verdict && checked.verdict != Verdict::refuted) {
+    checked.reason = fmt::format("recorded as {}, but the claims make it {}",
+                                 name_of(certificate.verdict), name_of(checked.verdict));
+    checked.verdict = Verdict::refuted;
+  }
+  return checked;
+}
+
+}  // namespace linkstudy::tuning

@@ -1,0 +1,73 @@
+// What a tuner claims about its point k*, each claim with the evaluations it rests on, so that
+// `verify` can run them again and judge anew.
+//   C0  k* is feasible at the base step and at half of it
+//   C1  k* is minimal in each variable: k_i (1 - delta) alone is rejected (fails at one step)
+//   C2  no point of the declared scan below k* (smaller objective) is accepted
+//   C3  the error falls in k about k*: f = log10 max(error / tolerance) drops from the lower
+//       neighbour to k* and from k* to the upper one by more than the noise. Noise is the larger
+//       of |f(h) - f(h/2)| at k* and the largest rise of f between evaluated points in between.
+// A claim is certified, refuted (an evaluation says otherwise), or inconclusive (an evaluation is
+// missing, ended by a cause that may be the machine's, or the noise hides it). The verdict is
+// refuted if any claim is, else inconclusive if any is, else certified.
+//
+// make_certificate and check_certificate judge by the same rules from the listed evaluations only.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <string_view>
+
+#include "study/tune/evaluation_log.h"
+
+namespace linkstudy::tuning {
+
+enum class Verdict { certified, refuted, inconclusive };
+
+std::string_view name_of(Verdict verdict);
+
+struct Claim {
+  std::string name;       // "C0"
+  std::string statement;  // one line
+  std::vector<std::uint64_t> evaluations;
+  Verdict verdict = Verdict::inconclusive;
+  std::string reason;
+};
+
+// What the claims are about: everything needed to judge them again.
+struct CertificateTerms {
+  std::vector<double> point;  // k*, (n)
+  std::vector<TunedVariable> variables;
+  std::vector<MatchComponent> components;
+  double delta = 0.0;
+  std::vector<std::vector<double>> scan;              // the declared scan
+  std::vector<std::vector<double>> lower_neighbours;  // of C3, one per variable
+  std::vector<std::vector<double>> upper_neighbours;
+};
+
+struct Certificate {
+  CertificateTerms terms;
+  std::array<Claim, 4> claims;
+  Verdict verdict = Verdict::inconclusive;
+  std::string reason;  // empty when certified
+};
+
+// The terms for a point: neighbours lie `neighbourhood` decades below, and above by that or by half
+// the window's margin, whichever is less; never outside the declared range.
+CertificateTerms make_terms(const TuningProblem& problem, const TuningOptions& options,
+                            const std::vector<double>& point, double margin_decades);
+
+// The evaluations the claims need, in a fixed order. Points of the scan below k* that match at the
+// base step are asked for at half of it as well, and so is k_i (1 - delta).
+std::vector<Request> list_requests(const CertificateTerms& terms, const EvaluationLog& log);
+
+Certificate make_certificate(const CertificateTerms& terms, const EvaluationLog& log);
+
+// The evaluation with this id, as recorded or as run again.
+using Lookup = std::function<std::optional<Observation>(std::uint64_t id)>;
+
+// Judges every claim again. A claim whose recorded verdict is not reached again is refuted, and so
+// is then the certificate.
+Certificate check_certificate(const Certificate& certificate, const Lookup& lookup);
+
+}  // namespace linkstudy::tuning

@@ -1,0 +1,31 @@
+// NLopt asks whether anything lower matches: minimise s subject to
+//   g_i(s) = log10(error_i / tolerance_i) <= 0,    x_j = start_j * 10^(s_j),
+// with s in decades from the point found, bounded by the declared range. COBYLA, explicit initial
+// step; evaluations at the base step are remembered by exact x, so a repeated point costs nothing.
+//
+// NLopt is not trusted. Its returned point is reported and never used; it may be infeasible, or
+// the last one tried. Budgets are counted here; when one ends the optimiser is told to stop and
+// gets stale numbers until it does. g_i is kept in [-3, 3] and is 3 for an answer with a cause, so
+// no NaN or infinity reaches it. An exception of the callback is kept, the optimiser stopped, and
+// the exception thrown again from here.
+#pragma once
+
+#include "study/tune/evaluation_log.h"
+
+namespace linkstudy::tuning {
+
+struct NloptReport {
+  bool ran = false;
+  std::string algorithm;
+  std::string ended;            // what NLopt or our budgets said
+  std::size_t calls = 0;        // objective and constraint calls
+  std::size_t evaluations = 0;  // new ones it cost
+  bool found_lower = false;     // a feasible point lower than the start by over the resolution
+  double lowest = 0.0;          // lowest feasible value it saw (one variable)
+};
+
+// `reserve` evaluations are left in the budget.
+NloptReport confirm_with_nlopt(EvaluationLog& log, const std::vector<double>& start,
+                               std::size_t reserve);
+
+}  // namespace linkstudy::tuning

@@ -1,0 +1,226 @@
+#include "study/tune/judge_claim.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "study/tune/scan_window.h"
+
+namespace linkstudy::tuning {
+namespace {
+
+using Evidence = std::vector<Observation>;
+
+struct Finding {
+  Verdict verdict = Verdict::inconclusive;
+  std::string reason;
+};
+
+const Observation* find(const Evidence& evidence, const std::vector<double>& x, double factor) {
+  for (const Observation& observation : evidence) {
+    if (observation.request.x == x && observation.request.step_factor == factor) {
+      return &observation;
+    }
+  }
+  return nullptr;
+}
+
+std::string format_point(const std::vector<double>& x) {
+  return fmt::format("{:.6g}", fmt::join(x, ", "));
+}
+
+std::string describe(const Observation* observation, const CertificateTerms& terms) {
+  if (observation == nullptr) {
+    return "not evaluated";
+  }
+  if (observation->answer.status != Cause::ok) {
+    return std::string(name_of(observation->answer.status));
+  }
+  return fmt::format("{:.4g} of tolerance", compute_ratio(observation->answer, terms.components));
+}
+
+Acceptance accept(const CertificateTerms& terms, const Evidence& evidence,
+                  const std::vector<double>& x) {
+  return judge_acceptance(find(evidence, x, 1.0), find(evidence, x, 0.5), terms.components);
+}
+
+bool is_half_step(const Observation* base, const Observation* half) {
+  if (base == nullptr || half == nullptr || !(base->answer.step > 0.0)) {
+    return true;
+  }
+  return std::abs(half->answer.step - 0.5 * base->answer.step) <= 1e-3 * base->answer.step;
+}
+
+Finding judge_feasible(const CertificateTerms& terms, const Evidence& evidence) {
+  const Observation* base = find(evidence, terms.point, 1.0);
+  const Observation* half = find(evidence, terms.point, 0.5);
+  const std::string seen =
+      fmt::format("at the step {}, at half of it {}", describe(base, terms), describe(half, terms));
+  switch (judge_acceptance(base, half, terms.components)) {
+    case Acceptance::accepted:
+      return is_half_step(base, half)
+                 ? Finding{Verdict::certified, seen}
+                 : Finding{Verdict::inconclusive, "the second evaluation did not halve the step"};
+    case Acceptance::rejected:
+      return {Verdict::refuted, seen};
+    case Acceptance::open:
+      break;
+  }
+  return {Verdict::inconclusive, seen};
+}
+
+// All points must be rejected; the first accepted refutes, else the first open one leaves it open.
+Finding judge_rejected(const CertificateTerms& terms, const Evidence& evidence,
+                       const std::vector<std::vector<double>>& points) {
+  Finding finding{Verdict::certified, fmt::format("{} of {} fail", points.size(), points.size())};
+  for (const std::vector<double>& x : points) {
+    const Acceptance acceptance = accept(terms, evidence, x);
+    if (acceptance == Acceptance::accepted) {
+      return {Verdict::refuted, format_point(x) + " matches"};
+    }
+    if (acceptance == Acceptance::open && finding.verdict == Verdict::certified) {
+      finding = {Verdict::inconclusive,
+                 fmt::format("{}: at the step {}, at half of it {}", format_point(x),
+                             describe(find(evidence, x, 1.0), terms),
+                             describe(find(evidence, x, 0.5), terms))};
+    }
+  }
+  return finding;
+}
+
+Finding judge_minimal(const CertificateTerms& terms, const Evidence& evidence) {
+  std::vector<std::vector<double>> points;
+  for (std::size_t i = 0; i < terms.point.size(); ++i) {
+    points.push_back(reduced_point(terms, i));
+    if (points.back()[i] < terms.variables[i].low) {
+      return {
+          Verdict::inconclusive,
+          fmt::format("the range of '{}' ends at {:.6g}, above k (1 - delta): lower its low end",
+                      terms.variables[i].path, terms.variables[i].low)};
+    }
+  }
+  Finding finding = judge_rejected(terms, evidence, points);
+  if (finding.verdict == Verdict::certified && points.size() == 1) {
+    const Observation* base = find(evidence, points[0], 1.0);
+    finding.reason = fmt::format("{}: {}", format_point(points[0]), describe(base, terms));
+  }
+  return finding;
+}
+
+Finding judge_scan(const CertificateTerms& terms, const Evidence& evidence) {
+  const std::vector<std::vector<double>> points = scan_below(terms);
+  if (points.empty()) {
+    return {Verdict::certified, "no point of the scan lies below"};
+  }
+  return judge_rejected(terms, evidence, points);
+}
+
+struct Sample {
+  double value = 0.0;
+  double log_ratio = 0.0;
+};
+
+// Base-step samples along variable i from one neighbour to the other, ascending.
+std::vector<Sample> samples_along(const CertificateTerms& terms, const Evidence& evidence,
+                                  std::size_t i) {
+  std::vector<Sample> samples;
+  for (const Observation& observation : evidence) {
+    std::vector<double> x = observation.request.x;
+    const double value = x[i];
+    x[i] = terms.point[i];
+    const bool inside =
+        value >= terms.lower_neighbours[i][i] && value <= terms.upper_neighbours[i][i];
+    const bool counts = !is_transient(observation.answer.status);
+    if (x == terms.point && inside && counts && observation.request.step_factor == 1.0) {
+      samples.push_back(
+          {value, compute_log_ratio(compute_ratio(observation.answer, terms.components))});
+    }
+  }
+  std::sort(samples.begin(), samples.end(),
+            [](const Sample& a, const Sample& b) { return a.value < b.value; });
+  return samples;
+}
+
+double find_largest_rise(const std::vector<Sample>& samples) {
+  double rise = 0.0;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Sample& sample : samples) {
+    least = std::min(least, sample.log_ratio);
+    rise = std::max(rise, sample.log_ratio - least);
+  }
+  return rise;
+}
+
+Finding judge_falling(const CertificateTerms& terms, const Evidence& evidence, std::size_t i) {
+  const Observation* base = find(evidence, terms.point, 1.0);
+  const Observation* half = find(evidence, terms.point, 0.5);
+  const std::vector<Sample> samples = samples_along(terms, evidence, i);
+  const bool ends = samples.size() >= 3 && samples.front().value == terms.lower_neighbours[i][i] &&
+                    samples.back().value == terms.upper_neighbours[i][i] &&
+                    samples.front().value < terms.point[i] && terms.point[i] < samples.back().value;
+  if (base == nullptr || half == nullptr || !ends) {
+    return {Verdict::inconclusive, "a neighbour of k* was not evaluated or lies outside the range"};
+  }
+  const double at_base = compute_log_ratio(compute_ratio(base->answer, terms.components));
+  const double at_half = compute_log_ratio(compute_ratio(half->answer, terms.components));
+  const double rise = find_largest_rise(samples);
+  const double noise = std::max(std::abs(at_base - at_half), rise);
+  const double drop =
+      std::min(samples.front().log_ratio - at_base, at_base - samples.back().log_ratio);
+  const std::string seen =
+      fmt::format("drop {:.2g} decades within {:.2g} of k*, noise {:.2g}", drop,
+                  std::log10(samples.back().value / samples.front().value), noise);
+  if (drop > noise) {
+    return {Verdict::certified, seen};
+  }
+  return {rise > 0.0 && rise >= drop ? Verdict::refuted : Verdict::inconclusive, seen};
+}
+
+Finding judge_neighbourhood(const CertificateTerms& terms, const Evidence& evidence) {
+  Finding worst{Verdict::certified, ""};
+  for (std::size_t i = 0; i < terms.point.size(); ++i) {
+    const Finding finding = judge_falling(terms, evidence, i);
+    if (i == 0 || finding.verdict == Verdict::refuted || worst.verdict == Verdict::certified) {
+      worst = finding;
+    }
+  }
+  return worst;
+}
+
+}  // namespace
+
+std::vector<double> reduced_point(const CertificateTerms& terms, std::size_t i) {
+  std::vector<double> x = terms.point;
+  x[i] *= 1.0 - terms.delta;
+  return x;
+}
+
+std::vector<std::vector<double>> scan_below(const CertificateTerms& terms) {
+  std::vector<std::vector<double>> points;
+  const double objective = compute_objective(terms.point);
+  for (const std::vector<double>& x : terms.scan) {
+    if (compute_objective(x) < objective) {
+      points.push_back(x);
+    }
+  }
+  return points;
+}
+
+void judge_claim(const CertificateTerms& terms, const std::vector<Observation>& evidence,
+                 Claim& claim) {
+  Finding finding{Verdict::inconclusive, "no such claim"};
+  if (claim.name == "C0") {
+    finding = judge_feasible(terms, evidence);
+  } else if (claim.name == "C1") {
+    finding = judge_minimal(terms, evidence);
+  } else if (claim.name == "C2") {
+    finding = judge_scan(terms, evidence);
+  } else if (claim.name == "C3") {
+    finding = judge_neighbourhood(terms, evidence);
+  }
+  claim.verdict = finding.verdict;
+  claim.reason = finding.reason;
+}
+
+}  // namespace linkstudy::tuning

@@ -1,0 +1,223 @@
+#include "study/tune/tune.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "study/tune/find_window.h"
+
+namespace linkstudy::tuning {
+namespace {
+
+// Starts from a lower point that turned up late; each is lower by over the resolution, and a noisy
+// error function could go on for long.
+constexpr int kMostPasses = 4;
+// Evaluations NLopt leaves for the certificate.
+constexpr std::size_t kCertificateReserve = 6;
+
+void require_valid(const TuningProblem& problem, const TuningOptions& options) {
+  const std::vector<Problem> problems = check(problem, options);
+  if (!problems.empty()) {
+    throw std::invalid_argument(fmt::format("{}: {}; {}", problems.front().path,
+                                            problems.front().message, problems.front().remedy));
+  }
+}
+
+void scan(EvaluationLog& log) {
+  std::vector<Request> requests;
+  for (const double value : make_scan_values(log.problem().variables.front(), log.options().scan)) {
+    requests.push_back({{value}, 1.0, "scan"});
+  }
+  log.evaluate(requests);
+}
+
+bool any_transient(const EvaluationLog& log) {
+  return std::any_of(log.observations().begin(), log.observations().end(),
+                     [](const Observation& seen) { return is_transient(seen.answer.status); });
+}
+
+std::string budget_reason(const EvaluationLog& log) {
+  return fmt::format("the budget of {} evaluations is used up: raise max_evaluations",
+                     log.options().max_evaluations);
+}
+
+void describe_empty_window(EvaluationLog& log, TuningResult& result) {
+  if (!log.exhausted()) {
+    probe_half_step(log);
+  }
+  if (log.base_values().empty()) {
+    result.reason = budget_reason(log);
+    return;
+  }
+  result.suggestion = suggest_step(log);
+  result.status = TuningStatus::infeasible;
+  result.reason = "no point of the range matches: " + result.suggestion->message;
+  if (log.exhausted()) {
+    result.status = TuningStatus::inconclusive;
+    result.reason = "no match seen, and " + budget_reason(log);
+  } else if (any_transient(log)) {
+    result.status = TuningStatus::inconclusive;
+    result.reason = "no match seen, but some evaluations ended by causes of the machine";
+  }
+}
+
+// Half the step at the lowest point that beats the one in hand at the base step.
+void probe_lower_candidate(EvaluationLog& log, double value) {
+  const std::optional<double> candidate = find_lowest_candidate(log);
+  if (candidate && *candidate < value) {
+    log.evaluate({{{*candidate}, 0.5, "half_step"}});
+  }
+}
+
+struct Search {
+  double value = 0.0;
+  Window window;
+  CertificateTerms terms;
+};
+
+void gather_evidence(EvaluationLog& log, Search& search) {
+  search.terms =
+      make_terms(log.problem(), log.options(), {search.value}, search.window.margin_decades);
+  log.evaluate(list_requests(search.terms, log));
+  log.evaluate(list_requests(search.terms, log));  // half steps of what the first round showed
+}
+
+Search search_window(EvaluationLog& log, NloptReport& nlopt) {
+  Search search;
+  search.value = find_lowest_candidate(log).value();
+  for (int pass = 0; pass < kMostPasses; ++pass) {
+    search.value = descend(log, search.value);
+    search.window = find_window(log, search.value);
+    if (pass == 0) {
+      nlopt = confirm_with_nlopt(log, {search.value}, kCertificateReserve);
+      probe_lower_candidate(log, search.value);
+    }
+    gather_evidence(log, search);
+    const double lowest = find_lowest_accepted(log).value_or(search.value);
+    if (lowest >= search.value) {
+      break;
+    }
+    search.value = lowest;
+  }
+  return search;
+}
+
+bool has_gap(const std::vector<ScanPoint>& points) {
+  int entries = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const bool starts = i == 0 || points[i - 1].side != Side::feasible;
+    entries += points[i].side == Side::feasible && starts ? 1 : 0;
+  }
+  return entries > 1;
+}
+
+void add_notes(const TuningOptions& options, TuningResult& result) {
+  const Window& window = *result.window;
+  if (window.low_open) {
+    result.notes.push_back(fmt::format(
+        "the lowest value tried, {:.6g}, already matches: lower the range to find the boundary",
+        window.low));
+  }
+  if (has_gap(result.points)) {
+    result.notes.push_back("the matching values do not form one interval: noise or a resonance");
+  }
+  if (result.answer.h_omega > 1.0) {
+    result.notes.push_back(fmt::format(
+        "h omega_max is {:.3g}, above 1: the step resolves the fastest oscillation poorly",
+        result.answer.h_omega));
+  }
+  if (window.margin_decades < 10.0 * options.resolution) {
+    result.notes.push_back("the window is hardly wider than the resolution: use a smaller step");
+  }
+  if (result.nlopt.found_lower) {
+    result.notes.push_back(
+        fmt::format("NLopt saw a match at {:.6g}, below the section search", result.nlopt.lowest));
+  }
+}
+
+TuningStatus status_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::certified:
+      return TuningStatus::certified;
+    case Verdict::refuted:
+      return TuningStatus::refuted;
+    case Verdict::inconclusive:
+      break;
+  }
+  return TuningStatus::inconclusive;
+}
+
+// The point in hand is the lowest accepted, or else the lowest that matches at the base step.
+void describe_window(EvaluationLog& log, Search search, TuningResult& result) {
+  const double value = find_lowest_accepted(log).value_or(search.value);
+  search.window = find_window(log, value);  // with everything NLopt and the claims have seen
+  if (value != search.value) {
+    search.terms = make_terms(log.problem(), log.options(), {value}, search.window.margin_decades);
+  }
+  result.point = {value};
+  result.objective = compute_objective(result.point);
+  result.answer = log.find(result.point, 1.0)->answer;
+  result.binding = find_binding(result.answer, log.problem().components);
+  result.window = search.window;
+  result.certificate = make_certificate(search.terms, log);
+  result.status = status_of(result.certificate->verdict);
+  result.reason = result.certificate->reason;
+  if (log.exhausted() && result.status != TuningStatus::refuted) {
+    result.status = TuningStatus::inconclusive;
+    result.reason = budget_reason(log);
+  }
+}
+
+}  // namespace
+
+std::string_view name_of(TuningStatus status) {
+  switch (status) {
+    case TuningStatus::certified:
+      return "certified";
+    case TuningStatus::refuted:
+      return "refuted";
+    case TuningStatus::infeasible:
+      return "infeasible";
+    case TuningStatus::inconclusive:
+      break;
+  }
+  return "inconclusive";
+}
+
+std::string_view name_of(HighLimit limit) {
+  switch (limit) {
+    case HighLimit::accuracy:
+      return "accuracy";
+    case HighLimit::stability:
+      return "stability";
+    case HighLimit::range:
+      break;
+  }
+  return "range";
+}
+
+TuningResult tune(const TuningProblem& problem, const TuningOptions& options,
+                  const EvaluateBatch& evaluate) {
+  require_valid(problem, options);
+  EvaluationLog log(problem, options, evaluate);
+  TuningResult result;
+  result.problem = problem;
+  scan(log);
+  if (refine_scan(log)) {
+    const Search search = search_window(log, result.nlopt);
+    describe_window(log, search, result);
+  } else {
+    describe_empty_window(log, result);
+  }
+  result.points = classify_points(log);
+  result.observations = log.observations();
+  result.rounds = log.rounds();
+  if (result.window) {
+    add_notes(options, result);
+  }
+  return result;
+}
+
+}  // namespace linkstudy::tuning

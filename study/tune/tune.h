@@ -1,0 +1,19 @@
+// Finds the lowest value of one variable whose errors all match, in this order:
+//   scan the range; where nothing matches, refine where a window could hide;
+//   close on the lowest feasible boundary, move up if half the step says otherwise;
+//   close on the upper end of the window; let NLopt look for anything lower;
+//   collect what the certificate needs, and start again from any lower point that turned up.
+// The point kept is the lowest accepted one among all evaluations, never one only computed.
+// Where nothing matches the result is infeasible and says which step would open a window.
+// Numerical ends are data in the answers; an exception of `evaluate` leaves unchanged.
+#pragma once
+
+#include "study/tune/tuning_result.h"
+
+namespace linkstudy::tuning {
+
+// Throws std::invalid_argument naming the first problem that check() finds.
+TuningResult tune(const TuningProblem& problem, const TuningOptions& options,
+                  const EvaluateBatch& evaluate);
+
+}  // namespace linkstudy::tuning

@@ -1,0 +1,102 @@
+#include "study/tune/tuning_problem.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <set>
+
+namespace linkstudy::tuning {
+namespace {
+
+void check_variables(const TuningProblem& problem, std::vector<Problem>& problems) {
+  if (problem.variables.empty()) {
+    problems.push_back({"tune", "no variable is tuned", "add one [[tune]] entry"});
+  }
+  if (problem.variables.size() > 1) {
+    problems.push_back(
+        {"tune",
+         fmt::format("{} variables are tuned; only one is supported", problem.variables.size()),
+         "keep one [[tune]] entry and fix the others in base.set"});
+  }
+  for (const TunedVariable& variable : problem.variables) {
+    const bool ordered = variable.low > 0.0 && variable.low < variable.high;
+    if (!ordered || !std::isfinite(variable.high)) {
+      problems.push_back(
+          {"tune.range",
+           fmt::format("range of '{}' is [{:g}, {:g}]", variable.path, variable.low, variable.high),
+           "give 0 < low < high, both finite"});
+    }
+  }
+}
+
+void check_components(const TuningProblem& problem, std::vector<Problem>& problems) {
+  if (problem.components.empty()) {
+    problems.push_back({"match", "nothing is matched", "add at least one [[match]] entry"});
+  }
+  std::set<std::string> names;
+  for (const MatchComponent& component : problem.components) {
+    if (!(component.tolerance > 0.0) || !std::isfinite(component.tolerance)) {
+      problems.push_back(
+          {"match.tolerance",
+           fmt::format("tolerance of '{}' is {:g}", component.name, component.tolerance),
+           "give a positive relative error, for example 0.02"});
+    }
+    if (!names.insert(component.name).second) {
+      problems.push_back({"match.signal", fmt::format("'{}' is matched twice", component.name),
+                          "keep one entry for each signal and load case"});
+    }
+  }
+}
+
+void check_counts(const TuningOptions& options, std::vector<Problem>& problems) {
+  if (options.scan < 2) {
+    problems.push_back({"scan", fmt::format("scan has {} points", options.scan), "use at least 2"});
+  }
+  if (options.batch < 1) {
+    problems.push_back({"batch", "batch is 0", "use at least 1"});
+  }
+  if (options.max_evaluations < 1) {
+    problems.push_back({"max_evaluations", "max_evaluations is 0", "use at least 1"});
+  }
+}
+
+void check_decades(const TuningOptions& options, std::vector<Problem>& problems) {
+  const auto within = [&](const char* path, double value, double low, double high) {
+    if (!(value >= low && value <= high)) {
+      problems.push_back({path, fmt::format("{} is {:g}", path, value),
+                          fmt::format("use {:g} to {:g}", low, high)});
+    }
+  };
+  within("resolution", options.resolution, 1e-8, 0.5);
+  within("upper_resolution", options.upper_resolution, 1e-8, 0.5);
+  within("neighbourhood", options.neighbourhood, 1e-6, 2.0);
+  within("delta", options.delta, 1e-8, 0.9);
+  if (-std::log10(1.0 - options.delta) < options.resolution) {
+    problems.push_back(
+        {"delta",
+         fmt::format("delta {:g} is finer than the resolution of {:g} decades", options.delta,
+                     options.resolution),
+         fmt::format("use a delta of at least {:.3g}", 1.0 - std::pow(10.0, -options.resolution))});
+  }
+}
+
+}  // namespace
+
+std::vector<Problem> check(const TuningProblem& problem, const TuningOptions& options) {
+  std::vector<Problem> problems;
+  check_variables(problem, problems);
+  check_components(problem, problems);
+  check_counts(options, problems);
+  check_decades(options, problems);
+  return problems;
+}
+
+double compute_objective(const std::vector<double>& x) {
+  double sum = 0.0;
+  for (const double value : x) {
+    sum += std::log10(value);
+  }
+  return sum;
+}
+
+}  // namespace linkstudy::tuning

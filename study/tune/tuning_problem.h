@@ -1,0 +1,76 @@
+// What a tuner is asked and what it may ask back. It knows numbers only: the caller turns a
+// request into simulations (all load cases) and reduces them to one error per match component.
+//
+// A tuned variable is positive and searched in log10; the objective is the sum of the log10. A
+// component matches when error <= tolerance, both relative to the reference.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "core/simulation/cause.h"
+#include "core/topology/problem.h"
+
+namespace linkstudy::tuning {
+
+struct TunedVariable {
+  std::string path;  // "closure.S.sde.stiffness"
+  std::string unit;  // "N/m"
+  double low = 0.0;  // the declared range, in user units
+  double high = 0.0;
+};
+
+struct MatchComponent {
+  std::string name;  // "closure.S.force.x", with the load case in front where there are several
+  double tolerance = 0.0;
+};
+
+struct TuningProblem {
+  std::vector<TunedVariable> variables;    // (n)
+  std::vector<MatchComponent> components;  // (m), over all load cases
+};
+
+struct TuningOptions {
+  std::size_t scan = 16;              // log-spaced points over the range, ends included
+  std::size_t batch = 8;              // points asked for together; an input, never the rank count
+  std::size_t max_evaluations = 300;  // never exceeded
+  double resolution = 1e-3;           // decades, of the lowest feasible boundary
+  double upper_resolution = 2e-2;     // decades, of the upper end of the window
+  double delta = 0.02;                // k (1 - delta) must fail for k to count as minimal
+  double neighbourhood = 0.1;         // decades around k in which the error must fall
+  std::size_t confirm_evaluations = 16;  // new evaluations NLopt may spend; 0 skips it
+  std::size_t confirm_calls = 400;       // calls of any kind before NLopt is stopped
+  // Wall time of NLopt. Finite values make the requests depend on the clock, so it is off unless
+  // asked for.
+  double confirm_time_s = std::numeric_limits<double>::infinity();
+  std::uint64_t seed = 1;
+};
+
+struct Request {
+  std::vector<double> x;     // parameter values in user units, (n)
+  double step_factor = 1.0;  // 1 or 0.5: the same point at that multiple of the base step
+  std::string purpose;       // "scan", "refine", "lower_end", ...
+};
+
+struct Answer {
+  std::uint64_t id = 0;
+  Cause status = Cause::ok;
+  std::vector<double> errors;  // one per component; ignored unless status is ok
+  double h_omega = 0.0;        // step times highest eigenfrequency; NaN or 0 when unknown
+  double step_limit = 0.0;     // s, stability limit of the step; NaN or 0 when unknown
+  double step = 0.0;           // s, the step this evaluation used
+};
+
+// Answers come in the order of the requests. What is asked depends on earlier answers only.
+using EvaluateBatch = std::function<std::vector<Answer>(const std::vector<Request>&)>;
+
+// All problems in one pass; paths are those of a tune file.
+std::vector<Problem> check(const TuningProblem& problem, const TuningOptions& options);
+
+// sum_i log10 x_i
+double compute_objective(const std::vector<double>& x);
+
+}  // namespace linkstudy::tuning

@@ -1,0 +1,46 @@
+// What a tuner found and how it got there.
+#pragma once
+
+#include <optional>
+
+#include "study/tune/certificate.h"
+#include "study/tune/confirm_nlopt.h"
+#include "study/tune/scan_window.h"
+#include "study/tune/suggest_step.h"
+
+namespace linkstudy::tuning {
+
+enum class TuningStatus { certified, refuted, inconclusive, infeasible };
+enum class HighLimit { accuracy, stability, range };
+
+std::string_view name_of(TuningStatus status);
+std::string_view name_of(HighLimit limit);
+
+// The feasible interval that starts at the point found. At an open end the range ended first.
+struct Window {
+  double low = 0.0;
+  double high = 0.0;
+  double margin_decades = 0.0;  // log10(high / low)
+  HighLimit high_limited_by = HighLimit::range;
+  bool low_open = false;
+};
+
+struct TuningResult {
+  TuningStatus status = TuningStatus::inconclusive;
+  std::string reason;  // one line; empty when certified
+  TuningProblem problem;
+  std::vector<double> point;     // lowest that matches, or the lowest seen; empty when none
+  double objective = 0.0;        // sum of log10
+  Answer answer;                 // of the point at the base step
+  std::size_t binding = 0;       // component closest to its tolerance
+  std::optional<Window> window;  // nothing when no point matches
+  std::optional<Certificate> certificate;
+  std::optional<StepSuggestion> suggestion;  // when no point matches
+  NloptReport nlopt;
+  std::vector<ScanPoint> points;          // every value tried at the base step, with its side
+  std::vector<Observation> observations;  // every evaluation in the order asked
+  std::size_t rounds = 0;                 // batches asked for
+  std::vector<std::string> notes;         // what else the user should know
+};
+
+}  // namespace linkstudy::tuning

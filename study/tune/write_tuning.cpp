@@ -1,0 +1,275 @@
+#include "study/tune/write_tuning.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace linkstudy::tuning {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+void add_line(std::string& text, const std::string& key, const std::string& value) {
+  text += fmt::format("{:<12}{}\n", key, value);
+}
+
+const TunedVariable& variable_of(const TuningResult& result) {
+  return result.problem.variables.front();
+}
+
+void add_point(std::string& text, const TuningResult& result) {
+  for (std::size_t i = 0; i < result.point.size(); ++i) {
+    const TunedVariable& variable = result.problem.variables[i];
+    add_line(text, i == 0 ? "point" : "",
+             fmt::format("{} = {:.6g} {} (log10 {:.4f})", variable.path, result.point[i],
+                         variable.unit, std::log10(result.point[i])));
+  }
+}
+
+void add_window(std::string& text, const TuningResult& result) {
+  if (!result.window) {
+    add_line(text, "window", "empty");
+    return;
+  }
+  const Window& window = *result.window;
+  add_line(text, "window",
+           fmt::format("{:.6g} .. {:.6g} {}, {:.2f} decades, above limited by {}", window.low,
+                       window.high, variable_of(result).unit, window.margin_decades,
+                       name_of(window.high_limited_by)));
+}
+
+void add_answer(std::string& text, const TuningResult& result) {
+  const Answer& answer = result.answer;
+  if (result.point.empty() || answer.errors.empty()) {
+    return;
+  }
+  const MatchComponent& component = result.problem.components[result.binding];
+  add_line(text, "binding",
+           fmt::format("{}: error {:.4g} of {:.4g}", component.name, answer.errors[result.binding],
+                       component.tolerance));
+  add_line(text, "step",
+           fmt::format("{:.4g} s, limit {:.4g} s, h omega_max {:.3g}", answer.step,
+                       answer.step_limit, answer.h_omega));
+}
+
+std::string describe_nlopt(const NloptReport& nlopt) {
+  if (!nlopt.ran) {
+    return nlopt.ended;
+  }
+  const std::string found = nlopt.found_lower ? fmt::format("a match at {:.6g}", nlopt.lowest)
+                                              : std::string("nothing lower");
+  return fmt::format("{}: {} in {} evaluations ({})", nlopt.algorithm, found, nlopt.evaluations,
+                     nlopt.ended);
+}
+
+void add_certificate(std::string& text, const TuningResult& result) {
+  if (!result.certificate) {
+    return;
+  }
+  for (const Claim& claim : result.certificate->claims) {
+    add_line(text, claim.name,
+             fmt::format("{:<13}{}: {}", name_of(claim.verdict), claim.statement, claim.reason));
+  }
+}
+
+void add_points(std::string& text, const TuningResult& result) {
+  text += fmt::format("\n{:>14}  {:>15}  {:<16}{:>10}\n", "value", "error/tolerance", "side",
+                      "evaluation");
+  for (const ScanPoint& point : result.points) {
+    const bool ended = point.cause != Cause::ok;
+    const std::string side = point.side == Side::failed && ended
+                                 ? std::string(linkstudy::name_of(point.cause))
+                                 : std::string(name_of(point.side));
+    text += fmt::format("{:>14.6g}  {:>15.4g}  {:<16}{:>10}\n", point.value, point.ratio, side,
+                        point.evaluation);
+  }
+}
+
+Json make_number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json make_window(const TuningResult& result) {
+  if (!result.window) {
+    return nullptr;
+  }
+  const Window& window = *result.window;
+  return {{"low", window.low},
+          {"high", window.high},
+          {"margin_decades", window.margin_decades},
+          {"high_limited_by", name_of(window.high_limited_by)}};
+}
+
+Json make_claims(const TuningResult& result) {
+  if (!result.certificate) {
+    return nullptr;
+  }
+  Json claims = Json::object();
+  for (const Claim& claim : result.certificate->claims) {
+    claims[claim.name] = {{"verdict", name_of(claim.verdict)},
+                          {"statement", claim.statement},
+                          {"reason", claim.reason},
+                          {"evaluations", claim.evaluations}};
+  }
+  return claims;
+}
+
+Json make_suggestion(const TuningResult& result) {
+  if (!result.suggestion) {
+    return nullptr;
+  }
+  const StepSuggestion& suggestion = *result.suggestion;
+  return {{"step", suggestion.step > 0.0 ? Json(suggestion.step) : Json(nullptr)},
+          {"value", suggestion.step > 0.0 ? Json(suggestion.value) : Json(nullptr)},
+          {"message", suggestion.message}};
+}
+
+template <typename Row, typename Get>
+auto collect(const std::vector<Row>& rows, Get get) {
+  using Value = std::decay_t<decltype(get(rows.front()))>;
+  std::vector<Value> values;
+  std::transform(rows.begin(), rows.end(), std::back_inserter(values), get);
+  return values;
+}
+
+Table make_result_table(const TuningResult& result) {
+  Table table{"result", {}};
+  const auto number = [&](const std::string& name, const std::string& unit, double value) {
+    table.columns.push_back({name, unit, std::vector<double>{value}});
+  };
+  const auto word = [&](const std::string& name, std::string_view value) {
+    table.columns.push_back({name, "", std::vector<std::string>{std::string(value)}});
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const Window none{nan, nan, nan, HighLimit::range, false};
+  const Window window = result.window.value_or(none);
+  const std::string unit = variable_of(result).unit;
+  word("status", name_of(result.status));
+  word("reason", result.reason);
+  word("parameter", variable_of(result).path);
+  number("value", unit, result.point.empty() ? nan : result.point.front());
+  number("objective", "", result.point.empty() ? nan : result.objective);
+  number("window_low", unit, window.low);
+  number("window_high", unit, window.high);
+  number("margin_decades", "", window.margin_decades);
+  word("high_limited_by", result.window ? name_of(window.high_limited_by) : "");
+  number("suggested_step", "s", result.suggestion ? result.suggestion->step : nan);
+  number("evaluations", "", static_cast<double>(result.observations.size()));
+  number("rounds", "", static_cast<double>(result.rounds));
+  return table;
+}
+
+Table make_component_table(const TuningResult& result) {
+  const auto& components = result.problem.components;
+  std::vector<double> errors = result.answer.errors;
+  errors.resize(components.size(), std::numeric_limits<double>::quiet_NaN());
+  return {"components",
+          {{"name", "", collect(components, [](const auto& row) { return row.name; })},
+           {"tolerance", "", collect(components, [](const auto& row) { return row.tolerance; })},
+           {"error", "", errors}}};
+}
+
+Table make_scan_table(const TuningResult& result) {
+  const auto& points = result.points;
+  return {
+      "scan",
+      {{"value", variable_of(result).unit, collect(points, [](const auto& p) { return p.value; })},
+       {"ratio", "", collect(points, [](const auto& p) { return p.ratio; })},
+       {"side", "", collect(points, [](const auto& p) { return std::string(name_of(p.side)); })},
+       {"cause", "",
+        collect(points, [](const auto& p) { return std::string(linkstudy::name_of(p.cause)); })},
+       {"h_omega", "", collect(points, [](const auto& p) { return p.h_omega; })},
+       {"evaluation", "",
+        collect(points, [](const auto& p) { return static_cast<double>(p.evaluation); })}}};
+}
+
+Table make_certificate_table(const TuningResult& result) {
+  std::vector<Claim> claims;
+  if (result.certificate) {
+    claims.assign(result.certificate->claims.begin(), result.certificate->claims.end());
+  }
+  return {"certificate",
+          {{"claim", "", collect(claims, [](const auto& c) { return c.name; })},
+           {"statement", "", collect(claims, [](const auto& c) { return c.statement; })},
+           {"verdict", "",
+            collect(claims, [](const auto& c) { return std::string(name_of(c.verdict)); })},
+           {"reason", "", collect(claims, [](const auto& c) { return c.reason; })},
+           {"evaluations", "", collect(claims, [](const auto& c) {
+              return fmt::format("{}", fmt::join(c.evaluations, " "));
+            })}}};
+}
+
+Table make_evaluation_table(const TuningResult& result) {
+  const auto& seen = result.observations;
+  const auto& components = result.problem.components;
+  return {
+      "evaluations",
+      {{"evaluation", "",
+        collect(seen, [](const auto& o) { return static_cast<double>(o.answer.id); })},
+       {"value", variable_of(result).unit,
+        collect(seen, [](const auto& o) { return o.request.x.front(); })},
+       {"step_factor", "", collect(seen, [](const auto& o) { return o.request.step_factor; })},
+       {"purpose", "", collect(seen, [](const auto& o) { return o.request.purpose; })},
+       {"status", "",
+        collect(seen,
+                [](const auto& o) { return std::string(linkstudy::name_of(o.answer.status)); })},
+       {"ratio", "",
+        collect(seen, [&](const auto& o) { return compute_ratio(o.answer, components); })}}};
+}
+
+}  // namespace
+
+std::string write_text(const TuningResult& result) {
+  std::string text;
+  add_line(
+      text, "status",
+      std::string(name_of(result.status)) + (result.reason.empty() ? "" : ": " + result.reason));
+  add_point(text, result);
+  add_window(text, result);
+  add_answer(text, result);
+  if (result.window) {
+    add_line(text, "NLopt", describe_nlopt(result.nlopt));
+  }
+  add_certificate(text, result);
+  for (const std::string& note : result.notes) {
+    add_line(text, "note", note);
+  }
+  add_line(text, "cost",
+           fmt::format("{} evaluations in {} rounds", result.observations.size(), result.rounds));
+  add_points(text, result);
+  return text;
+}
+
+std::string write_json(const TuningResult& result, const std::string& digest) {
+  Json parameters = Json::object();
+  for (std::size_t i = 0; i < result.point.size(); ++i) {
+    parameters[result.problem.variables[i].path] = result.point[i];
+  }
+  Json errors = Json::object();
+  for (std::size_t i = 0;
+       i < std::min(result.answer.errors.size(), result.problem.components.size()); ++i) {
+    errors[result.problem.components[i].name] = make_number(result.answer.errors[i]);
+  }
+  Json json = {{"status", name_of(result.status)},
+               {"reason", result.reason},
+               {"parameters", parameters},
+               {"objective", result.point.empty() ? Json(nullptr) : Json(result.objective)},
+               {"error", errors},
+               {"window", make_window(result)},
+               {"certificate", make_claims(result)},
+               {"suggestion", make_suggestion(result)},
+               {"notes", result.notes},
+               {"evaluations", result.observations.size()},
+               {"rounds", result.rounds},
+               {"digest", digest}};
+  return json.dump();
+}
+
+std::vector<Table> make_tables(const TuningResult& result) {
+  return {make_result_table(result), make_component_table(result), make_scan_table(result),
+          make_certificate_table(result), make_evaluation_table(result)};
+}
+
+}  // namespace linkstudy::tuning
