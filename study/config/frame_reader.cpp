@@ -1,0 +1,147 @@
+#include "study/config/frame_reader.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
+
+#include "core/topology/check_values.h"
+
+namespace linkstudy {
+namespace {
+
+using Kind = Tree::Kind;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+// Entries below the rounding of the angles, such as cos(90 deg) = 6e-17, are zero.
+Matrix3d without_dust(const Matrix3d& rotation) {
+  const auto clean = [](double entry) {
+    return std::abs(entry) < std::numeric_limits<double>::epsilon() ? 0.0 : entry;
+  };
+  return rotation.unaryExpr(clean);
+}
+
+// Newton's iteration for the nearest rotation; it leaves an exact rotation as it is.
+Matrix3d orthonormalised(Matrix3d r) {
+  for (int i = 0; i < 3; ++i) {
+    r = 0.5 * r * (3.0 * Matrix3d::Identity() - r.transpose() * r);
+  }
+  return r;
+}
+
+class RotationReader {
+ public:
+  RotationReader(const std::string& subject, Diagnostics& diagnostics)
+      : subject_(subject), diagnostics_(diagnostics) {}
+
+  Matrix3d read(const Tree& table) {
+    const Tree* angle = table.find("angle");
+    const Tree* axis = table.find("axis");
+    if (angle != nullptr && angle->is_valid() && axis == nullptr) {
+      diagnostics_.add(angle->at, fmt::format("{}angle goes with axis only", subject_),
+                       "write rotation = { axis = [0, 0, 1], angle = \"30 deg\" }");
+    }
+    if (axis != nullptr) return from_axis(table, *axis, angle);
+    if (const Tree* value = table.find("euler_zyx")) return from_euler(*value);
+    if (const Tree* value = table.find("quaternion")) return from_quaternion(*value);
+    if (const Tree* value = table.find("matrix")) return from_matrix(*value);
+    return Matrix3d::Identity();
+  }
+
+ private:
+  Matrix3d from_axis(const Tree& table, const Tree& axis, const Tree* angle) {
+    const Vector3d u =
+        read_direction(&axis, Vector3d::UnitZ(), subject_ + "axis of rotation", diagnostics_);
+    if (angle == nullptr) {
+      diagnostics_.add(table.at, fmt::format("{}the rotation has an axis but no angle", subject_),
+                       "add angle = \"30 deg\"");
+      return Matrix3d::Identity();
+    }
+    if (!angle->is_numeric()) return Matrix3d::Identity();
+    return without_dust(Eigen::AngleAxisd(angle->as_number(), u).toRotationMatrix());
+  }
+
+  Matrix3d from_euler(const Tree& value) {
+    const Vector3d angles = read_vector(&value, Vector3d::Zero());
+    using Eigen::AngleAxisd;
+    return without_dust(
+        (AngleAxisd(angles[0], Vector3d::UnitZ()) * AngleAxisd(angles[1], Vector3d::UnitY()) *
+         AngleAxisd(angles[2], Vector3d::UnitX()))
+            .toRotationMatrix());
+  }
+
+  Matrix3d from_quaternion(const Tree& value) {
+    if (!value.is(Kind::array)) return Matrix3d::Identity();
+    const Eigen::Quaterniond q(value.items[0].as_number(), value.items[1].as_number(),
+                               value.items[2].as_number(), value.items[3].as_number());
+    if (!(std::abs(q.norm() - 1.0) <= kQuaternionTolerance)) {
+      diagnostics_.add(value.at,
+                       fmt::format("{}quaternion must have length 1, got {} of length {:.6g}",
+                                   subject_, shown(value), q.norm()),
+                       "order w, x, y, z; divide by the length");
+      return Matrix3d::Identity();
+    }
+    return without_dust(q.normalized().toRotationMatrix());
+  }
+
+  Matrix3d from_matrix(const Tree& value) {
+    const Matrix3d r = read_matrix(&value, Matrix3d::Identity());
+    const std::string fault = rotation_fault(r);
+    if (fault.empty()) return orthonormalised(r);
+    const bool mirrored = fault.find("reflection") != std::string::npos;
+    diagnostics_.add(value.at, fmt::format("{}matrix {}", subject_, fault),
+                     mirrored ? "turn the sign of one axis: a frame is right-handed"
+                              : "rows and columns have length 1 and are perpendicular");
+    return Matrix3d::Identity();
+  }
+
+  const std::string& subject_;
+  Diagnostics& diagnostics_;
+};
+
+}  // namespace
+
+Vector3d read_vector(const Tree* value, const Vector3d& otherwise) {
+  if (value == nullptr || !value->is(Kind::array) || value->items.size() != 3) return otherwise;
+  return {value->items[0].as_number(), value->items[1].as_number(), value->items[2].as_number()};
+}
+
+Vector3d read_direction(const Tree* value, const Vector3d& otherwise, const std::string& subject,
+                        Diagnostics& diagnostics) {
+  const Vector3d v = read_vector(value, otherwise);
+  const double length = v.stableNorm();
+  if (length > 0.0) return length == 1.0 ? v : Vector3d(v / length);
+  diagnostics.add(value->at, fmt::format("{} must not be zero, got {}", subject, shown(*value)),
+                  "give a direction, of any length");
+  return otherwise;
+}
+
+Matrix3d read_matrix(const Tree* value, const Matrix3d& otherwise) {
+  if (value == nullptr || !value->is(Kind::array) || value->items.size() != 3) return otherwise;
+  Matrix3d m;
+  for (int i = 0; i < 3; ++i) {
+    m.row(i) =
+        read_vector(&value->items[static_cast<std::size_t>(i)], otherwise.row(i)).transpose();
+  }
+  return m;
+}
+
+Frame read_frame(const Tree& owner, const std::string& subject, Diagnostics& diagnostics) {
+  Frame frame;
+  if (!owner.is(Kind::table)) return frame;
+  frame.position = read_vector(owner.find("position"), Vector3d::Zero());
+  RotationReader reader(subject, diagnostics);
+  const Tree* rotation = owner.find("rotation");
+  if (rotation != nullptr && rotation->is(Kind::table)) {
+    frame.rotation = reader.read(*rotation);
+  } else {
+    for (const char* form : {"matrix", "euler_zyx", "quaternion"}) {
+      if (owner.find(form) != nullptr) frame.rotation = reader.read(owner);
+    }
+  }
+  return frame;
+}
+
+}  // namespace linkstudy

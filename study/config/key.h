@@ -1,0 +1,100 @@
+// The key tables: every key an input may have, declared once. From the same rows come validation,
+// defaults, unit conversion, `linkstudy describe` and configs/README.md.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "study/config/tree.h"
+
+namespace linkstudy {
+
+enum class KeyType {
+  number,           // a number in `unit`, or a text with a unit
+  number_or_table,  // the same, or a table of such numbers with rows of their own
+  integer,
+  boolean,
+  word,       // one of `words`
+  name,       // [A-Za-z][A-Za-z0-9_]*
+  text,       // any text that is not empty
+  texts,      // array of such texts
+  numbers,    // array of numbers in `unit`, of one of the lengths `counts` (any, when empty)
+  matrix,     // three rows of three numbers
+  scalar,     // one value whose meaning another key decides: number, text or boolean
+  scalars,    // array of those
+  table,      // keys with rows of their own
+  tables,     // [[array of tables]]; rows of elements follow "path.*."
+  overrides,  // table of path = value
+  planned     // a key of a later version: stops with `meaning`
+};
+
+struct Range {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  bool low_is_out = false;
+  bool high_is_out = false;
+
+  bool contains(double value) const;
+  bool is_everything() const;
+};
+
+inline constexpr Range kPositive{.low = 0.0, .low_is_out = true};
+inline constexpr Range kNotNegative{.low = 0.0};
+
+// A row applies only where the neighbour key `key` holds one of `words`.
+struct Condition {
+  std::string key;
+  std::vector<std::string> words;
+};
+
+struct KeyRow {
+  std::string path;  // "link.*.mass"; * stands for the name (or position) of an element
+  KeyType type = KeyType::number;
+  std::string meaning = {};
+  std::string unit = {};  // alternatives "N|N m" are told apart by the neighbours
+  Range range = {};
+  bool required = false;
+  std::string standard = {};              // default, as TOML text; empty: none
+  std::vector<std::string> words = {};    // of a word
+  std::vector<std::string> planned = {};  // words of a later version
+  std::vector<int> counts = {};           // allowed lengths of `numbers`, `texts` and `scalars`
+  std::string group =
+      {};  // of the rows of a group, one at most is given (exactly one, if required)
+  Condition only = {};
+};
+
+// Rows as a tree that follows the tree of the input.
+struct KeyNode {
+  std::string name;
+  KeyRow row;
+  std::optional<Tree> standard;  // parsed default
+  std::vector<KeyNode> children;
+
+  const KeyNode* find(std::string_view key) const;
+  const KeyNode* element() const { return find("*"); }  // of tables
+  std::vector<std::string> child_names() const;         // without planned ones
+};
+
+KeyNode make_schema(const std::vector<KeyRow>& rows);
+
+// The three sections of the reference.
+const std::vector<KeyRow>& model_rows();
+const std::vector<KeyRow>& study_rows();  // kind = "study"
+const std::vector<KeyRow>& tune_rows();   // kind = "tune"
+const KeyNode& model_schema();
+const KeyNode& study_schema();
+const KeyNode& tune_schema();
+
+// "closure.S.sde" -> {"closure", "S", "sde"}
+std::vector<std::string> split_path(std::string_view path);
+
+// "must be positive", "must lie in (0, 1]"
+std::string range_text(const Range& range);
+
+// "N|N m" -> {"N", "N m"}
+std::vector<std::string> unit_alternatives(const std::string& unit);
+
+}  // namespace linkstudy

@@ -1,0 +1,103 @@
+#include "study/config/model_document.h"
+
+#include <fmt/format.h>
+
+#include "core/topology/nearest_name.h"
+#include "study/config/joint_units.h"
+#include "study/config/toml_reader.h"
+#include "study/config/validate.h"
+
+namespace linkstudy {
+namespace {
+
+constexpr const char* kKinds = "supported: model, study, tune";
+
+std::optional<Tree> require_model(std::optional<Tree> tree, Diagnostics& diagnostics) {
+  if (!tree) return std::nullopt;
+  const std::optional<std::string> kind = kind_of(*tree, diagnostics);
+  if (!kind) return std::nullopt;
+  if (*kind == "model") return tree;
+  diagnostics.add(tree->find("kind")->at,
+                  fmt::format("a model is expected here, got kind = '{}'", *kind),
+                  "name a file with kind = \"model\"");
+  return std::nullopt;
+}
+
+bool is_single_value(KeyType type) {
+  return type == KeyType::number || type == KeyType::number_or_table || type == KeyType::integer ||
+         type == KeyType::boolean || type == KeyType::word || type == KeyType::numbers ||
+         type == KeyType::name;
+}
+
+}  // namespace
+
+std::optional<std::string> kind_of(const Tree& document, Diagnostics& diagnostics) {
+  const Tree* format = document.find("format");
+  if (format != nullptr && format->is_numeric() && format->as_number() != 1.0) {
+    diagnostics.add(format->at, fmt::format("format must be 1, got {}", shown(*format)),
+                    "this version reads format = 1 only");
+    return std::nullopt;
+  }
+  const Tree* kind = document.find("kind");
+  if (kind == nullptr) {
+    diagnostics.add(document.at, "kind is missing", kKinds);
+    return std::nullopt;
+  }
+  const std::string word = kind->is(Tree::Kind::text) ? kind->text : std::string();
+  if (word == "model" || word == "study" || word == "tune") return word;
+  if (word == "converge") {
+    diagnostics.add(kind->at, "kind = 'converge' is not supported in this version", kKinds);
+    return std::nullopt;
+  }
+  const std::vector<std::string> kinds = {"model", "study", "tune"};
+  const std::string near = nearest_name(word, kinds);
+  diagnostics.add(kind->at, fmt::format("kind must be model, study or tune, got {}", shown(*kind)),
+                  near.empty() ? kKinds : fmt::format("did you mean '{}'?", near));
+  return std::nullopt;
+}
+
+std::optional<ModelDocument> ModelDocument::load(const std::string& path,
+                                                 Diagnostics& diagnostics) {
+  std::optional<Tree> tree = require_model(read_toml_file(path, diagnostics), diagnostics);
+  if (!tree) return std::nullopt;
+  return ModelDocument(std::move(*tree), path);
+}
+
+std::optional<ModelDocument> ModelDocument::parse(std::string_view text, const std::string& file,
+                                                  Diagnostics& diagnostics) {
+  std::optional<Tree> tree = require_model(parse_toml(text, file, diagnostics), diagnostics);
+  if (!tree) return std::nullopt;
+  return ModelDocument(std::move(*tree), file);
+}
+
+std::optional<ModelInput> ModelDocument::with(std::span<const Override> overrides,
+                                              Diagnostics& diagnostics) const {
+  Diagnostics found;
+  Tree tree = tree_;
+  for (const Override& override : overrides) set_value(tree, model_schema(), override, found);
+  validate(tree, model_schema(), found);
+  ModelInput input = read_model(std::move(tree), found);
+  diagnostics.append(found);
+  if (!found.empty()) return std::nullopt;
+  return input;
+}
+
+std::optional<ModelDocument> ModelDocument::edited(std::span<const Override> overrides,
+                                                   Diagnostics& diagnostics) const {
+  ModelDocument result = *this;
+  bool is_done = true;
+  for (const Override& override : overrides) {
+    is_done = set_value(result.tree_, model_schema(), override, diagnostics) && is_done;
+  }
+  if (!is_done) return std::nullopt;
+  return result;
+}
+
+std::optional<Parameter> parameter_for(const ModelDocument& document, const std::string& path) {
+  const KeyRow* row = find_row(document.tree(), model_schema(), path);
+  if (row == nullptr || !is_single_value(row->type)) return std::nullopt;
+  const std::string unit = unit_of_path(document.tree(), row->unit, path).value_or(std::string());
+  return Parameter{path, unit == "1" ? std::string() : unit, row->meaning};
+}
+
+}  // namespace linkstudy

@@ -1,0 +1,44 @@
+// A model file read once and kept as written; every case of a study is the document with some
+// values set, checked again as a whole by the same rows. No text is parsed again.
+#pragma once
+
+#include <memory>
+
+#include "study/config/model_reader.h"
+#include "study/config/override.h"
+
+namespace linkstudy {
+
+class ModelDocument {
+ public:
+  // Reads the text only: whether the values are right is said by with().
+  static std::optional<ModelDocument> load(const std::string& path, Diagnostics& diagnostics);
+  static std::optional<ModelDocument> parse(std::string_view text, const std::string& file,
+                                            Diagnostics& diagnostics);
+
+  // The model with these values set, in their order. Nothing when anything was reported.
+  std::optional<ModelInput> with(std::span<const Override> overrides,
+                                 Diagnostics& diagnostics) const;
+
+  // The document with these values written into it (--set). Nothing when a path names nothing.
+  std::optional<ModelDocument> edited(std::span<const Override> overrides,
+                                      Diagnostics& diagnostics) const;
+
+  const std::string& file() const { return file_; }
+  const Tree& tree() const { return tree_; }  // as written, not validated
+
+ private:
+  ModelDocument(Tree tree, std::string file) : tree_(std::move(tree)), file_(std::move(file)) {}
+
+  Tree tree_;
+  std::string file_;
+};
+
+// Unit and meaning of a path of the model; nothing when the path names no single value.
+std::optional<Parameter> parameter_for(const ModelDocument& document, const std::string& path);
+
+// The kind of an input: "model", "study" or "tune". Nothing, and a report, when the kind is absent,
+// wrong or of a later version, or the format is not 1.
+std::optional<std::string> kind_of(const Tree& document, Diagnostics& diagnostics);
+
+}  // namespace linkstudy

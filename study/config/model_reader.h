@@ -1,0 +1,27 @@
+// A validated model tree as a Linkage and the options of a run. Judges what needs more than one
+// key: rotations, units that follow the joint type, stiffness by direction, loads that fit their
+// coordinate; then the checks of core/topology, their paths turned into places in the file.
+#pragma once
+
+#include "core/simulation/options.h"
+#include "core/topology/linkage.h"
+#include "study/config/tree.h"
+
+namespace linkstudy {
+
+struct ModelInput {
+  Linkage linkage;
+  SimulationOptions options;
+  std::string name;
+  Tree resolved;  // every default and override filled in: the text of resolved.toml
+};
+
+// `model` comes from validate(); start positions are filled in. With reports, the result has
+// harmless values in their places.
+ModelInput read_model(Tree model, Diagnostics& diagnostics);
+
+// The place of a dotted path such as "joint.A.parent", or of its nearest existing part.
+// `reported` tells whether a value on the way was reported before.
+Location locate(const Tree& document, const std::string& path, bool* reported = nullptr);
+
+}  // namespace linkstudy

@@ -1,0 +1,119 @@
+// Files of kind "study" and "tune": which model, what is varied or tuned, what is compared and
+// kept. Every parameter path is checked against the model, every value converted to its unit.
+// Names of signals are not judged here; `at` is the place for whoever does.
+#pragma once
+
+#include "study/config/model_document.h"
+
+namespace linkstudy {
+
+enum class StudyKind { study, tune };
+enum class DesignType { grid, list };
+enum class ErrorNorm { max, rms };
+enum class ErrorScale { component, vector };
+enum class Reduction { max, min, max_abs, rms, mean, last };
+enum class FailurePolicy { record, abort };
+
+struct TimeWindow {
+  double first = 0.0;  // s
+  double last = 0.0;   // s
+};
+
+struct ReferenceInput {
+  std::shared_ptr<const ModelDocument> model;  // the study's own model where no other is named
+  std::vector<Override> set;
+  Location at;
+};
+
+struct VaryInput {
+  Parameter parameter;
+  std::vector<Value> values;  // numbers in parameter.unit, or words
+  Location at;
+};
+
+struct MatchInput {
+  std::string signal;
+  std::string reference_signal;  // without sign
+  double reference_sign = 1.0;   // -1: written with '-'
+  ErrorNorm norm = ErrorNorm::max;
+  ErrorScale scale = ErrorScale::component;
+  double tolerance = 0.0;
+  std::optional<TimeWindow> window;  // none: the whole run
+  double floor = 0.05;
+  Location at;            // of signal
+  Location reference_at;  // of reference_signal
+};
+
+struct ResponseInput {
+  std::string name;
+  std::string signal;
+  Reduction reduce = Reduction::max;
+  std::optional<TimeWindow> window;
+  Location at;  // of signal
+};
+
+struct TraceInput {
+  std::string signal;
+  Location at;
+};
+
+struct LoadCaseInput {
+  std::string name;
+  std::vector<Override> set;
+  Location at;
+};
+
+struct TuneInput {
+  Parameter parameter;
+  bool is_logarithmic = true;
+  double low = 0.0;
+  double high = 0.0;
+  Location at;
+};
+
+struct SearchOptions {
+  int scan = 16;
+  int batch = 8;
+  double resolution = 0.001;  // decades
+  int max_evaluations = 200;
+  double delta = 0.02;  // certificate step
+};
+
+// A number of failed evaluations, or a share of all in percent.
+struct FailureLimit {
+  double value = 0.0;
+  bool is_percent = false;
+};
+
+struct RunOptions {
+  std::uint64_t seed = 1;
+  std::optional<double> timeout;  // s
+  std::optional<FailureLimit> max_failures;
+  FailurePolicy on_failure = FailurePolicy::record;
+};
+
+struct StudyInput {
+  StudyKind kind = StudyKind::study;
+  std::string name;
+  std::string file;
+  std::shared_ptr<const ModelDocument> model;
+  std::optional<ReferenceInput> reference;
+  std::vector<Override> base_set;
+  DesignType design = DesignType::grid;
+  std::vector<VaryInput> vary;
+  std::vector<TuneInput> tune;
+  std::vector<MatchInput> match;
+  std::vector<ResponseInput> response;
+  std::vector<TraceInput> trace;
+  std::vector<LoadCaseInput> load_case;
+  SearchOptions search;
+  RunOptions run;
+  Tree resolved;
+};
+
+// `set` are --set overrides: those of the study's own keys (run.seed, search.scan, ...) go there,
+// all others are written into the model files, before what the study itself sets.
+std::optional<StudyInput> read_study(const std::string& path, std::span<const Override> set,
+                                     Diagnostics& diagnostics);
+
+}  // namespace linkstudy
