@@ -2,11 +2,27 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "study/tune/search_section.h"
 
 namespace linkstudy::tuning {
 namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+double neighbour_of(const EvaluationLog& log, double value) {
+  return value * std::pow(10.0, log.options().neighbourhood);
+}
+
+// The upper neighbour of the certificate: it also tells a noisy boundary from a narrow window.
+std::vector<Request> ask_neighbour(const EvaluationLog& log, double value) {
+  const double neighbour = neighbour_of(log, value);
+  if (neighbour > log.problem().variables.front().high) {
+    return {};
+  }
+  return {{{neighbour}, 1.0, "neighbour"}};
+}
 
 bool feasible_at_base(const EvaluationLog& log, double value) {
   const std::optional<double> ratio = log.ratio(value, 1.0);
@@ -26,7 +42,7 @@ std::optional<double> find_rejected_below(const EvaluationLog& log, double value
 
 // A failing value closer than the neighbourhood to a matching one above it is a gap made by noise.
 bool is_noise_gap(const EvaluationLog& log, double failing) {
-  const double reach = failing * std::pow(10.0, log.options().neighbourhood);
+  const double reach = neighbour_of(log, failing);
   const std::vector<double> values = log.base_values();
   return std::any_of(values.begin(), values.end(), [&](double other) {
     return other > failing && other <= reach && feasible_at_base(log, other);
@@ -53,10 +69,11 @@ std::vector<double> make_climb(double from, double ceiling, double first) {
 
 // Looks above a value that fails at half the step for one that passes at both.
 void climb(EvaluationLog& log, double value) {
-  const double failing = find_failing_above(log, value)
-                             .value_or(std::nextafter(log.problem().variables.front().high,
-                                                      std::numeric_limits<double>::infinity()));
-  const std::vector<double> values = make_climb(value, failing, 2.0 * log.options().resolution);
+  const double beyond = std::nextafter(log.problem().variables.front().high, kInfinity);
+  const double failing = find_failing_above(log, value).value_or(beyond);
+  // A failing value nearer than the neighbourhood may be noise: look past it.
+  const double ceiling = std::min(beyond, std::max(failing, neighbour_of(log, value)));
+  const std::vector<double> values = make_climb(value, ceiling, 2.0 * log.options().resolution);
   const std::size_t group = std::max<std::size_t>(1, log.options().batch / 2);
   for (std::size_t first = 0; first < values.size() && !log.exhausted(); first += group) {
     std::vector<Request> requests;
@@ -125,7 +142,11 @@ double descend(EvaluationLog& log, double candidate) {
                                    "lower_end"};
     value = search_section(log, {*below, value}, settings).feasible;
   }
-  log.evaluate({{{value}, 0.5, "half_step"}});
+  std::vector<Request> requests = {{{value}, 0.5, "half_step"}};
+  for (const Request& neighbour : ask_neighbour(log, value)) {
+    requests.push_back(neighbour);
+  }
+  log.evaluate(requests);
   if (log.acceptance({value}) == Acceptance::rejected) {
     climb(log, value);
   }
@@ -133,6 +154,7 @@ double descend(EvaluationLog& log, double candidate) {
 }
 
 Window find_window(EvaluationLog& log, double low) {
+  log.evaluate(ask_neighbour(log, low));
   Window window;
   window.low = low;
   window.low_open = !find_rejected_below(log, low).has_value();

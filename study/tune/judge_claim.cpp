@@ -56,7 +56,7 @@ Finding judge_feasible(const CertificateTerms& terms, const Evidence& evidence) 
   const Observation* base = find(evidence, terms.point, 1.0);
   const Observation* half = find(evidence, terms.point, 0.5);
   const std::string seen =
-      fmt::format("at the step {}, at half of it {}", describe(base, terms), describe(half, terms));
+      fmt::format("{}, at half the step {}", describe(base, terms), describe(half, terms));
   switch (judge_acceptance(base, half, terms.components)) {
     case Acceptance::accepted:
       return is_half_step(base, half)
@@ -80,10 +80,9 @@ Finding judge_rejected(const CertificateTerms& terms, const Evidence& evidence,
       return {Verdict::refuted, format_point(x) + " matches"};
     }
     if (acceptance == Acceptance::open && finding.verdict == Verdict::certified) {
-      finding = {Verdict::inconclusive,
-                 fmt::format("{}: at the step {}, at half of it {}", format_point(x),
-                             describe(find(evidence, x, 1.0), terms),
-                             describe(find(evidence, x, 0.5), terms))};
+      finding = {Verdict::inconclusive, fmt::format("{}: {}, at half the step {}", format_point(x),
+                                                    describe(find(evidence, x, 1.0), terms),
+                                                    describe(find(evidence, x, 0.5), terms))};
     }
   }
   return finding;

@@ -19,8 +19,10 @@ bool step_may_matter(double h_omega) {
 }
 
 ScanPoint describe(const EvaluationLog& log, double value) {
-  const Answer& answer = log.find({value}, 1.0)->answer;
+  const Observation& observation = *log.find({value}, 1.0);
+  const Answer& answer = observation.answer;
   ScanPoint point;
+  point.declared = observation.request.purpose == "scan" || observation.request.purpose == "refine";
   point.value = value;
   point.ratio = compute_ratio(answer, log.problem().components);
   point.cause = answer.status;

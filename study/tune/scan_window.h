@@ -35,6 +35,7 @@ struct ScanPoint {
   Cause cause = Cause::ok;
   std::uint64_t evaluation = 0;
   double h_omega = 0.0;
+  bool declared = false;  // of the scan or its refinement
 };
 
 // The declared scan of one variable, ends exact.

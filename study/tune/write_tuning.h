@@ -1,35 +1,17 @@
-// A tuning result as text for people, as one JSON object, and as columns for the results store.
+// A tuning result as text for people and as one JSON object.
 #pragma once
 
 #include <string>
-#include <variant>
-#include <vector>
 
 #include "study/tune/tuning_result.h"
 
 namespace linkstudy::tuning {
 
 // Aligned lines: point, window, binding component, step, NLopt, claims, cost, and one line for
-// every value tried with the side it failed on.
+// every value of the scan and its refinement with the side it failed on.
 std::string write_text(const TuningResult& result);
 
 // One line; keys as fixed for `tune --json`, NaN and infinity as null.
 std::string write_json(const TuningResult& result, const std::string& digest);
-
-// Names are [A-Za-z][A-Za-z0-9_]*; all columns of a table have the same length.
-struct Column {
-  std::string name;
-  std::string unit;
-  std::variant<std::vector<double>, std::vector<std::string>> values;
-};
-
-struct Table {
-  std::string name;
-  std::vector<Column> columns;
-};
-
-// "result" (one row), "components", "scan" (every value tried at the base step), "certificate"
-// (one row a claim, ids separated by blanks), "evaluations" (every one, in the order asked).
-std::vector<Table> make_tables(const TuningResult& result);
 
 }  // namespace linkstudy::tuning

@@ -168,6 +168,21 @@ TEST(Tune, Stays_within_the_noise_of_a_noisy_error) {
   }
 }
 
+TEST(Tune, Does_not_take_a_noisy_boundary_for_the_end_of_the_window) {
+  for (std::size_t batch : {1U, 2U, 4U, 8U}) {
+    for (int i = 0; i < 25; ++i) {
+      SyntheticError model;
+      model.terms[0].soft = 200.0 * (1.0 + 0.3 * i);
+      model.disturbance = testing::make_noise(1e-2);
+      TuningOptions options;
+      options.batch = batch;
+      const TuningResult result = run(model, options);
+      ASSERT_GT(result.window->margin_decades, 1.0) << batch << ' ' << i;
+      ASSERT_NE(result.status, TuningStatus::refuted) << batch << ' ' << i << result.reason;
+    }
+  }
+}
+
 TEST(Tune, Does_not_certify_a_slope_that_the_noise_hides) {
   SyntheticError model;
   model.disturbance = testing::make_noise(0.15);

@@ -4,6 +4,7 @@
 #include <regex>
 #include <set>
 
+#include "study/tune/tuning_tables.h"
 #include "synthetic_error.h"
 
 namespace linkstudy::tuning {
