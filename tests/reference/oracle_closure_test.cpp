@@ -2,6 +2,9 @@
 // of the reported wrenches, and reactions of all tree joints by free bodies.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "tests/mechanisms/frames.h"
 #include "tests/mechanisms/random_linkages.h"
 #include "tests/support/free_bodies.h"

@@ -2,6 +2,9 @@
 // equations by finite differences: random branching trees of all joint types.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "tests/mechanisms/random_linkages.h"
 #include "tests/support/free_bodies.h"
 #include "tests/support/near.h"

@@ -1,5 +1,7 @@
 #include "tests/support/near.h"
 
+#include <cmath>
+
 namespace linkstudy::testing {
 namespace {
 
