@@ -65,6 +65,29 @@ TEST(SectionSearch, Closes_on_a_boundary_without_slope) {
   }
 }
 
+TEST(SectionSearch, Is_not_slowed_by_a_secant_that_misleads) {
+  // A finite cliff: 1.01 of the tolerance below, 1e-6 above. The secant points at the failing end
+  // whatever the bracket, so one by one every other place must be the middle.
+  SyntheticError model;
+  model.terms = {{0.0, 0.0}};
+  TuningOptions options;
+  options.batch = 1;
+  const auto answers = model.evaluator();
+  EvaluationLog log(model.problem(), options, [&](const std::vector<Request>& requests) {
+    std::vector<Answer> changed = answers(requests);
+    for (std::size_t i = 0; i < changed.size(); ++i) {
+      changed[i].errors[0] = requests[i].x[0] < 33333.0 ? 0.0202 : 2e-8;
+    }
+    return changed;
+  });
+  log.evaluate({{{1e4}, 1.0, "scan"}, {{5e4}, 1.0, "scan"}});
+  const Bracket end =
+      search_section(log, {1e4, 5e4}, {WindowEnd::lower, Steps::base, 1e-3, "lower_end"});
+  EXPECT_GE(end.feasible, 33333.0);
+  EXPECT_LE(width_in_decades(end), 1e-3);
+  EXPECT_LE(model.asked.size(), 2U + 20U);  // twice the ten bisections of 0.7 / 1e-3 = 2^9.5
+}
+
 TEST(SectionSearch, Takes_few_rounds_on_a_falling_error) {
   for (const std::size_t batch : {1U, 2U, 8U}) {
     SyntheticError model;
