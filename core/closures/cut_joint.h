@@ -7,7 +7,7 @@
 // of least norm; Workspace::kept tells them.
 #pragma once
 
-#include "core/kinematics/closure_kinematics.h"
+#include "core/kinematics/closure_jacobian.h"
 #include "core/numerics/branch_sparse.h"
 #include "core/numerics/semidefinite.h"
 
@@ -17,27 +17,53 @@ namespace linkstudy {
 // differ by less than 1e-5 in direction.
 inline constexpr double kDependentRow = 1e-10;
 
-// Y = L^-T J^T by rows, J_rk = s_k . w2 on the path of the second body less s_k . w1 on the
-// first's.
+// Rows of J for the three ground axes at once: the velocity of the point by each velocity.
 template <class Real>
-inline void update_constraint_factor(const Mechanism& m, Workspace<Real>& w) {
+inline void add_point_rates(const Mechanism& m, const Parameters<Real>& p, const Workspace<Real>& w,
+                            int last, const Vec3<Real>& point, Real sign, Real* j) {
+  for (int k = last; k >= 0; k = m.v_parent[static_cast<std::size_t>(k)]) {
+    const auto i = static_cast<std::size_t>(k);
+    Vec3<Real> e = w.axes[i];
+    if (m.v_rotates[i]) {
+      const Vec3<Real> turned = cross(e, point - w.bodies[static_cast<std::size_t>(m.v_body[i])].p);
+      e = m.v_screw[i] < 0 ? turned
+                           : madd(p.pitch[static_cast<std::size_t>(m.v_screw[i])], e, turned);
+    }
+    j[k] = madd(sign, e.x, j[k]);
+    j[m.nv + k] = madd(sign, e.y, j[m.nv + k]);
+    j[2 * m.nv + k] = madd(sign, e.z, j[2 * m.nv + k]);
+  }
+}
+
+// Y = L^-T J^T by rows.
+template <class Real>
+inline void update_constraint_factor(const Mechanism& m, const Parameters<Real>& p,
+                                     Workspace<Real>& w) {
   const Real* h = w.mass.data();
   const int nv = m.nv;
-  for (std::size_t r = 0; r < m.cut_rows.size(); ++r) {
-    const ClosureStructure& c = m.closures[static_cast<std::size_t>(m.cut_rows[r].closure)];
-    const RowState<Real>& row = w.cut_rows[r];
-    Real* y = w.cut_y.data() + r * static_cast<std::size_t>(nv);
-    for (int k : c.support) y[k] = Real(0.0);
-    for (int k = c.last_1; k >= 0; k = m.v_parent[static_cast<std::size_t>(k)]) {
-      y[k] = y[k] - dot(w.axes[static_cast<std::size_t>(k)], row.w1);
+  for (std::size_t i = 0; i < m.closures.size(); ++i) {
+    const ClosureStructure& c = m.closures[i];
+    if (c.model != ClosureModel::cut) continue;
+    Real* y = w.cut_y.data() + c.row_begin * nv;
+    for (int r = c.row_begin; r < c.row_end; ++r) {
+      for (int k : c.support) y[(r - c.row_begin) * nv + k] = Real(0.0);
     }
-    for (int k = c.last_2; k >= 0; k = m.v_parent[static_cast<std::size_t>(k)]) {
-      y[k] = y[k] + dot(w.axes[static_cast<std::size_t>(k)], row.w2);
+    int r = c.row_begin;
+    if (c.point_rows) {
+      add_point_rates(m, p, w, c.last_1, w.closures[i].p1, Real(-1.0), y);
+      add_point_rates(m, p, w, c.last_2, w.closures[i].p2, Real(1.0), y);
+      r += 3;
     }
+    for (; r < c.row_end; ++r) {
+      const auto row = static_cast<std::size_t>(r);
+      add_row_rates(m, p, w, m.cut_rows[row], w.cut_rows[row], w.cut_y.data() + r * nv);
+    }
+    const int rows = c.row_end - c.row_begin;
     for (int k : c.support) {
-      for (int i = m.v_parent[static_cast<std::size_t>(k)]; i >= 0;
-           i = m.v_parent[static_cast<std::size_t>(i)]) {
-        y[i] = madd(Real(-h[k * nv + i]), y[k], y[i]);
+      for (int a = m.v_parent[static_cast<std::size_t>(k)]; a >= 0;
+           a = m.v_parent[static_cast<std::size_t>(a)]) {
+        const Real l = -h[k * nv + a];
+        for (int n = 0; n < rows; ++n) y[n * nv + a] = madd(l, y[n * nv + k], y[n * nv + a]);
       }
     }
   }
@@ -105,7 +131,7 @@ template <class Real>
 inline void solve_cut_joints(const Mechanism& m, const Parameters<Real>& p, Workspace<Real>& w) {
   if (m.cut_rows.empty()) return;
   update_rows(m, p, ClosureModel::cut, w);
-  update_constraint_factor(m, w);
+  update_constraint_factor(m, p, w);
   update_schur_complement(m, w);
   for (int r = 0; r < m.cut_row_count(); ++r) {
     const auto i = static_cast<std::size_t>(r);
@@ -116,6 +142,11 @@ inline void solve_cut_joints(const Mechanism& m, const Parameters<Real>& p, Work
   }
   solve_schur(m, w);
   for (std::size_t r = 0; r < m.cut_rows.size(); ++r) w.cut_rows[r].value = w.schur_rhs[r];
+  for (std::size_t i = 0; i < m.closures.size(); ++i) {
+    const ClosureStructure& c = m.closures[i];
+    if (c.model != ClosureModel::cut) continue;
+    sum_row_forces(c, m.cut_rows.data(), w.cut_rows.data(), w.closures[i]);
+  }
   subtract_constraint_forces(m, w, w.y.data());
 }
 

@@ -30,7 +30,7 @@ template <class Real>
 inline void project(const Mechanism& m, const Parameters<Real>& p, Real* q, Real* v, Real* dv,
                     Workspace<Real>& w) {
   update_rows(m, p, ClosureModel::cut, w);
-  update_constraint_factor(m, w);
+  update_constraint_factor(m, p, w);
   update_schur_complement(m, w);
   for (std::size_t r = 0; r < m.cut_rows.size(); ++r) {
     w.schur_rhs[r] = projects<Real>(m, r) ? w.cut_rows[r].d : Real(0.0);

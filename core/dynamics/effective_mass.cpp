@@ -5,6 +5,7 @@
 
 #include "core/dynamics/motion.h"
 #include "core/kinematics/assembly.h"
+#include "core/kinematics/closure_jacobian.h"
 
 namespace linkstudy {
 namespace {
@@ -22,23 +23,43 @@ double effective(const MatrixXd& j, const MatrixXd& mass) {
   return largest > 0.0 ? 1.0 / largest : 0.0;
 }
 
+// Springs that are not along three axes resist any translation: J has all three ground axes then.
+MatrixXd translation_jacobian(const Model& model, const Workspace<double>& w, int closure,
+                              const MatrixXd& j) {
+  const ClosureStructure& c = model.mechanism.closures[static_cast<std::size_t>(closure)];
+  const auto& rows = model.mechanism.sde_rows;
+  int count = 0;
+  bool along_axes = true;
+  for (int r = c.row_begin; r < c.row_end; ++r) {
+    const RowKind kind = rows[static_cast<std::size_t>(r)].kind;
+    if (kind == RowKind::rotation) continue;
+    ++count;
+    along_axes =
+        along_axes && (kind == RowKind::translation_ground || kind == RowKind::translation_first);
+  }
+  if (count == 0 || along_axes) return j.middleRows(c.row_begin, count);
+  std::vector<Row> axes;
+  for (int d = kX; d <= kZ; ++d) {
+    axes.push_back({RowKind::translation_ground, closure, d, 0, 1.0, d});
+  }
+  return row_jacobian(model.mechanism, model.parameters, w, axes, make_rows<double>(axes));
+}
+
 }  // namespace
 
 EffectiveMass compute_effective_mass(const Model& model, const State<double>& s, int closure) {
   const Mechanism& m = model.mechanism;
   Workspace<double> w = make_workspace<double>(m);
   compute_motion(m, model.parameters, s, w);
-  const MatrixXd j = row_jacobian(m, m.sde_rows, w.sde_rows, w.axes);
+  const MatrixXd j = row_jacobian(m, model.parameters, w, m.sde_rows, w.sde_rows);
   const MatrixXd mass = compute_mass_matrix(m, model.parameters, s);
   const ClosureStructure& c = m.closures[static_cast<std::size_t>(closure)];
-  int translations = 0;
+  int rotations = 0;  // after the translations in the rows of a closure
   for (int r = c.row_begin; r < c.row_end; ++r) {
-    if (!is_rotation(m.sde_rows[static_cast<std::size_t>(r)])) ++translations;
+    if (is_rotation(m.sde_rows[static_cast<std::size_t>(r)])) ++rotations;
   }
-  // Translations come first in the rows of a closure.
-  const int rotations = c.row_end - c.row_begin - translations;
-  return {effective(j.middleRows(c.row_begin, translations), mass),
-          effective(j.middleRows(c.row_begin + translations, rotations), mass)};
+  return {effective(translation_jacobian(model, w, closure, j), mass),
+          effective(j.middleRows(c.row_end - rotations, rotations), mass)};
 }
 
 void resolve_damping(const Linkage& linkage, const State<double>& s, Model& model) {

@@ -9,15 +9,23 @@
 
 namespace linkstudy {
 
+// Kinematics, forces, bias, mass matrix and its factor.
+template <class Real>
+inline void update_factored_mass_matrix(const Mechanism& m, const Parameters<Real>& p, double t,
+                                        const Real* q, const Real* v, Workspace<Real>& w) {
+  update_kinematics(m, p, q, v, w);
+  update_inertial_wrenches(m, w);
+  update_applied_forces(m, p, t, v, w);
+  update_bias(m, p, w);
+  update_mass_matrix(m, p, w);
+  factorize_branch_sparse(m.nv, m.v_parent.data(), w.mass.data(), w.inverse_pivot.data());
+}
+
 template <class Real>
 inline void evaluate(const Mechanism& m, const Parameters<Real>& p, double t, const Real* q,
                      const Real* v, Workspace<Real>& w) {
-  update_kinematics(m, p, q, v, w);
-  update_applied_forces(m, p, t, v, w);
-  update_bias(m, w);
-  update_mass_matrix(m, w);
+  update_factored_mass_matrix(m, p, t, q, v, w);
   const int* parent = m.v_parent.data();
-  factorize_branch_sparse(m.nv, parent, w.mass.data(), w.inverse_pivot.data());
   for (std::size_t k = 0; k < w.tau.size(); ++k) w.y[k] = w.tau[k];
   solve_branch_transposed(m.nv, parent, w.mass.data(), w.y.data());
   solve_cut_joints(m, p, w);

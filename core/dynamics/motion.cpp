@@ -13,9 +13,10 @@ Eigen::MatrixXd compute_mass_matrix(const Mechanism& m, const Parameters<double>
                                     const State<double>& s) {
   Workspace<double> w = make_workspace<double>(m);
   update_kinematics(m, p, s.q.data(), s.v.data(), w);
+  update_inertial_wrenches(m, w);
   update_applied_forces(m, p, s.t, s.v.data(), w);
-  update_bias(m, w);
-  update_mass_matrix(m, w);
+  update_bias(m, p, w);
+  update_mass_matrix(m, p, w);
   Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(m.nv, m.nv);
   for (int k = 0; k < m.nv; ++k) {
     for (int i = k; i >= 0; i = m.v_parent[static_cast<std::size_t>(i)]) {

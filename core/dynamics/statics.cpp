@@ -6,6 +6,7 @@
 
 #include "core/dynamics/motion.h"
 #include "core/kinematics/assembly.h"
+#include "core/kinematics/closure_jacobian.h"
 
 namespace linkstudy {
 namespace {
@@ -29,7 +30,7 @@ Balance compute_balance(const Model& model, const State<double>& s, Workspace<do
   const Mechanism& m = model.mechanism;
   compute_motion(m, model.parameters, s, w);
   Balance b{Eigen::Map<const VectorXd>(w.tau.data(), m.nv), VectorXd(m.cut_row_count()),
-            row_jacobian(m, m.cut_rows, w.cut_rows, w.axes)};
+            row_jacobian(m, model.parameters, w, m.cut_rows, w.cut_rows)};
   for (std::size_t r = 0; r < w.cut_rows.size(); ++r) {
     b.phi[static_cast<Eigen::Index>(r)] = w.cut_rows[r].d;
   }

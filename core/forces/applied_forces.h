@@ -1,5 +1,6 @@
 // Everything that acts on a linkage beside gravity and constraints; `update_applied_forces` is the
-// only list of force kinds. Writes BodyState::external, the joint loads in tau, and the powers.
+// only list of force kinds. Joint loads go to tau, the others come off BodyState::wrench; the
+// powers of drives and of dissipation are summed.
 #pragma once
 
 #include "core/kinematics/closure_kinematics.h"
@@ -46,13 +47,14 @@ inline void add_resistance(const LoadStructure& s, Real coefficient, const Real*
 
 template <class Real>
 inline void add_link_load(const LoadStructure& s, const LoadParameters<Real>& n, Real value,
-                          Workspace<Real>& w) {
+                          Workspace<Real>& w, Wrench<Real>& load) {
   BodyState<Real>& b = w.bodies[static_cast<std::size_t>(s.body)];
   const Vec3<Real> e = value * (s.follows_link ? b.r * n.direction : n.direction);
-  const Force<Real> load = s.type == LoadType::link_force ? line_force(b.p + b.r * n.point, e)
-                                                          : Force<Real>{e, zero3<Real>()};
-  b.external = b.external + load;
-  w.supplied_power = w.supplied_power + dot(b.v, load);
+  load = {e, zero3<Real>()};
+  if (s.type == LoadType::link_force) load = {cross(b.r * n.point, e), e};
+  b.wrench.force = b.wrench.force - load.force;
+  b.wrench.moment = b.wrench.moment - load.moment;
+  w.supplied_power = w.supplied_power + dot(b.v, load.force) + dot(b.omega, load.moment);
 }
 
 template <class Real>
@@ -69,7 +71,7 @@ inline void add_loads(const Mechanism& m, const Parameters<Real>& p, double t, c
     if (s.type == LoadType::drive) {
       add_drive(s, value, v, w);
     } else {
-      add_link_load(s, n, value, w);
+      add_link_load(s, n, value, w, w.link_loads[i]);
     }
   }
 }
@@ -80,24 +82,25 @@ inline void add_sdes(const Mechanism& m, const Parameters<Real>& p, Workspace<Re
   if (m.sde_rows.empty()) return;
   update_rows(m, p, ClosureModel::sde, w);
   for (std::size_t i = 0; i < m.sde_rows.size(); ++i) {
-    const ClosureStructure& c = m.closures[static_cast<std::size_t>(m.sde_rows[i].closure)];
-    const SpringParameters<Real>& n = p.springs[i];
     RowState<Real>& row = w.sde_rows[i];
-    const Real damping_force = n.damping * row.rate;
-    row.value = madd(n.stiffness, row.d, damping_force);
-    BodyState<Real>& b1 = w.bodies[static_cast<std::size_t>(c.first)];
-    BodyState<Real>& b2 = w.bodies[static_cast<std::size_t>(c.second)];
-    b1.external = madd(row.value, row.w1, b1.external);
-    b2.external = madd(Real(-row.value), row.w2, b2.external);
+    const Real damping_force = p.springs[i].damping * row.rate;
+    row.value = madd(p.springs[i].stiffness, row.d, damping_force);
     w.dissipated_power = madd(damping_force, row.rate, w.dissipated_power);
+  }
+  BodyState<Real>* bodies = w.bodies.data();
+  for (std::size_t i = 0; i < m.closures.size(); ++i) {
+    const ClosureStructure& c = m.closures[i];
+    if (c.model != ClosureModel::sde) continue;
+    sum_row_forces(c, m.sde_rows.data(), w.sde_rows.data(), w.closures[i]);
+    subtract_closure_forces(c, w.closures[i], bodies, bodies[c.first].wrench,
+                            bodies[c.second].wrench);
   }
 }
 
+// Precondition: BodyState::wrench holds the inertial wrenches; the forces are taken off them.
 template <class Real>
 inline void update_applied_forces(const Mechanism& m, const Parameters<Real>& p, double t,
                                   const Real* v, Workspace<Real>& w) {
-  const Force<Real> none{zero3<Real>(), zero3<Real>()};
-  for (BodyState<Real>& b : w.bodies) b.external = none;
   for (Real& x : w.tau) x = Real(0.0);
   w.supplied_power = Real(0.0);
   w.dissipated_power = Real(0.0);

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "core/kinematics/closure_kinematics.h"
-#include "core/kinematics/forward_kinematics.h"
+#include "core/kinematics/closure_jacobian.h"
 #include "core/numerics/rank.h"
 
 namespace linkstudy {
@@ -97,7 +96,8 @@ std::vector<bool> axis_senses(const Model& model, const State<double>& s) {
     for (int r = c.row_begin; r < c.row_end; ++r) {
       aligned |= 1u << m.cut_rows[static_cast<std::size_t>(r)].direction;
     }
-    const ClosurePose<double> x = closure_pose(c, model.parameters.closures[i], w.bodies.data());
+    ClosureState<double>& x = w.closures[i];
+    update_closure_pose(m, c, model.parameters.closures[i], w.bodies.data(), x);
     const bool tilts = (aligned >> kTheta & 1u) && (aligned >> kPsi & 1u);
     if (tilts) senses.push_back(dot(x.r1.x, x.r2.x) > 0.0);
     if (tilts && (aligned >> kPhi & 1u)) senses.push_back(dot(x.r1.y, x.r2.y) > 0.0);
@@ -185,30 +185,12 @@ State<double> displaced(const Mechanism& m, const State<double>& s, const Vector
   return moved;
 }
 
-MatrixXd row_jacobian(const Mechanism& m, const std::vector<Row>& rows,
-                      const std::vector<RowState<double>>& states,
-                      const std::vector<Motion<double>>& axes) {
-  MatrixXd j = MatrixXd::Zero(static_cast<Eigen::Index>(rows.size()), m.nv);
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    const ClosureStructure& c = m.closures[static_cast<std::size_t>(rows[r].closure)];
-    const auto row = static_cast<Eigen::Index>(r);
-    const auto next = [&](int k) { return m.v_parent[static_cast<std::size_t>(k)]; };
-    for (int k = c.last_1; k >= 0; k = next(k)) {
-      j(row, k) -= dot(axes[static_cast<std::size_t>(k)], states[r].w1);
-    }
-    for (int k = c.last_2; k >= 0; k = next(k)) {
-      j(row, k) += dot(axes[static_cast<std::size_t>(k)], states[r].w2);
-    }
-  }
-  return j;
-}
-
 ClosureEquations compute_closure_equations(const Mechanism& m, const Parameters<double>& p,
                                            const State<double>& s) {
   Workspace<double> w = make_workspace<double>(m);
   update_kinematics(m, p, s.q.data(), s.v.data(), w);
   update_rows(m, p, ClosureModel::cut, w);
-  ClosureEquations e{VectorXd(m.cut_row_count()), row_jacobian(m, m.cut_rows, w.cut_rows, w.axes)};
+  ClosureEquations e{VectorXd(m.cut_row_count()), row_jacobian(m, p, w, m.cut_rows, w.cut_rows)};
   for (std::size_t r = 0; r < w.cut_rows.size(); ++r) {
     e.residual[static_cast<Eigen::Index>(r)] = w.cut_rows[r].d;
   }

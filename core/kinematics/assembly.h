@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "core/model/compile.h"
-#include "core/model/workspace.h"
 
 namespace linkstudy {
 
@@ -52,11 +51,6 @@ struct ClosureEquations {
 };
 ClosureEquations compute_closure_equations(const Mechanism& m, const Parameters<double>& p,
                                            const State<double>& s);
-
-// Jacobian of given rows from a workspace that holds them.
-Eigen::MatrixXd row_jacobian(const Mechanism& m, const std::vector<Row>& rows,
-                             const std::vector<RowState<double>>& states,
-                             const std::vector<Motion<double>>& axes);
 
 // q moved by a displacement in velocity coordinates.
 State<double> displaced(const Mechanism& m, const State<double>& s, const Eigen::VectorXd& dq);

@@ -1,140 +1,203 @@
 // Directions of a closure: displacement d, its rate, its second derivative for qdd = 0, and its
-// unit wrench ([Urbas16] eqs. (6)-(14), (18.3)). With w1 the wrench of d on the first body and w2
-// on the second, d_dot = w2 . V2 - w1 . V1; a closure force of size f puts +f w1 on the first body
-// and -f w2 on the second. Wrenches are about O.
+// unit wrench ([Urbas16] eqs. (6)-(14), (18.3)). A closure force of size f puts +f times the unit
+// wrench on the first body and -f times it on the second. gap = p2 - p1.
 //
-//   ground axis e     d = e.(p2 - p1)   w1 = e at p1, w2 = e at p2
-//   axis e of {1,e}   d = e.(p2 - p1)   w1 = w2 = e at p2 (e turns with body 1)
-//   line of centres   d = |p2 - p1|     w1 = w2 = u, along the line; zero at coincidence
-//   rotation          d = s a.b         w1 = w2 = torque s b x a
+//   ground axis e     d = e.gap    force e, at p1 on the first body and at p2 on the second
+//   axis e of {1,e}   d = e.gap    force e at p2 on both (e turns with body 1)
+//   line of centres   d = |gap|    force u along the line, zero at coincidence
+//   rotation          d = s a.b    couple s b x a
 #pragma once
 
-#include "core/model/parameters.h"
-#include "core/model/workspace.h"
+#include "core/kinematics/forward_kinematics.h"
 
 namespace linkstudy {
 
-// Closure points and frames in ground, shared by the rows of one closure.
 template <class Real>
-struct ClosurePose {
-  Vec3<Real> p1, p2;
-  Mat3<Real> r1, r2;
+inline Real component(const Vec3<Real>& a, int i) {
+  return i == 0 ? a.x : i == 1 ? a.y : a.z;
+}
+
+// True where the force acts at p1 on the first body (and at p2 on the second), not at p2 on both.
+inline bool acts_at_both_points(RowKind kind) {
+  return kind == RowKind::translation_ground || kind == RowKind::spring_ground;
+}
+
+template <class Real>
+inline void update_closure_pose(const Mechanism& m, const ClosureStructure& c,
+                                const ClosureParameters<Real>& n, const BodyState<Real>* bodies,
+                                ClosureState<Real>& x) {
+  const BodyState<Real>& b1 = bodies[c.first];
+  const BodyState<Real>& b2 = bodies[c.second];
+  x.arm_1 = rotate(b1.r, n.point_1, c.point_1);
+  x.arm_2 = rotate(b2.r, n.point_2, c.point_2);
+  x.p1 = b1.p + x.arm_1;
+  x.p2 = b2.p + x.arm_2;
+  x.v1 = b1.v;
+  x.v2 = b2.v;
+  const bool turns_1 = m.bodies[static_cast<std::size_t>(c.first)].rotates;
+  const bool turns_2 = m.bodies[static_cast<std::size_t>(c.second)].rotates;
+  if (turns_1) x.v1 = x.v1 + cross(b1.omega, x.arm_1);
+  if (turns_2) x.v2 = x.v2 + cross(b2.omega, x.arm_2);
+  if (!c.needs_frames) return;
+  x.r1 = b1.r * n.frame_1;
+  x.r2 = b2.r * n.frame_2;
+}
+
+// Acceleration for qdd = 0, less gravity, of a point `arm` from the origin that moves with v.
+template <class Real>
+inline Vec3<Real> point_acceleration(const Body& body, const BodyState<Real>& b,
+                                     const Vec3<Real>& arm, const Vec3<Real>& v) {
+  if (!body.rotates) return b.a;
+  const Vec3<Real> a = b.a + cross(b.omega, v - b.v);
+  return body.gyrates ? a + cross(b.alpha, arm) : a;
+}
+
+// a2 - a1 of the closure points for qdd = 0.
+template <class Real>
+inline Vec3<Real> gap_acceleration(const Mechanism& m, const ClosureStructure& c,
+                                   const BodyState<Real>* bodies, const ClosureState<Real>& x) {
+  return point_acceleration(m.bodies[static_cast<std::size_t>(c.second)], bodies[c.second], x.arm_2,
+                            x.v2) -
+         point_acceleration(m.bodies[static_cast<std::size_t>(c.first)], bodies[c.first], x.arm_1,
+                            x.v1);
+}
+
+// Gap, its rate and acceleration seen from a frame that turns with the first body.
+template <class Real>
+struct TurningGap {
+  Vec3<Real> gap, rate, acceleration;
 };
 
 template <class Real>
-inline ClosurePose<Real> closure_pose(const ClosureStructure& c, const ClosureParameters<Real>& n,
-                                      const BodyState<Real>* bodies) {
-  const BodyState<Real>& b1 = bodies[c.first];
-  const BodyState<Real>& b2 = bodies[c.second];
-  return {b1.p + b1.r * n.point_1, b2.p + b2.r * n.point_2, b1.r * n.frame_1, b2.r * n.frame_2};
+inline TurningGap<Real> gap_seen_from_first(const BodyState<Real>& b1, const ClosureState<Real>& x,
+                                            const Vec3<Real>& acceleration) {
+  const Vec3<Real> gap = x.p2 - x.p1;
+  const Vec3<Real> carried = cross(b1.omega, gap);
+  const Vec3<Real> rate = x.v2 - x.v1 - carried;
+  return {gap, rate,
+          acceleration - cross(b1.alpha, gap) - cross(b1.omega, madd(Real(2.0), rate, carried))};
 }
 
 template <class Real>
-inline const Vec3<Real>& column(const Mat3<Real>& m, int i) {
-  return i == 0 ? m.x : i == 1 ? m.y : m.z;
-}
-
-template <class Real>
-inline Vec3<Real> ground_axis(int i) {
-  const Real o(0.0), e(1.0);
-  return {i == 0 ? e : o, i == 1 ? e : o, i == 2 ? e : o};
-}
-
-template <class Real>
-inline Force<Real> line_force(const Vec3<Real>& p, const Vec3<Real>& e) {
-  return {cross(p, e), e};
-}
-
-// A direction fixed in the ground.
-template <class Real>
-inline void update_ground_row(const ClosurePose<Real>& x, const Vec3<Real>& e,
-                              const BodyState<Real>& b1, const BodyState<Real>& b2,
-                              RowState<Real>& row) {
-  row.w1 = line_force(x.p1, e);
-  row.w2 = line_force(x.p2, e);
-  row.d = dot(e, x.p2 - x.p1);
-  row.rate = dot(e, velocity_at(b2.v, x.p2) - velocity_at(b1.v, x.p1));
-  row.bias = dot(e, acceleration_at(b2.a, b2.v, x.p2) - acceleration_at(b1.a, b1.v, x.p1));
-}
-
-// A direction e fixed in the first body: d_dot = w . (V2 - V1), w = e at p2.
-template <class Real>
-inline void update_moving_row(const ClosurePose<Real>& x, const Vec3<Real>& e,
-                              const BodyState<Real>& b1, const BodyState<Real>& b2,
-                              RowState<Real>& row) {
-  const Vec3<Real> e_rate = cross(b1.v.angular, e);
-  const Motion<Real> v = b2.v - b1.v;
-  row.w1 = row.w2 = line_force(x.p2, e);
-  const Force<Real> w_rate{cross(velocity_at(b2.v, x.p2), e) + cross(x.p2, e_rate), e_rate};
-  row.d = dot(e, x.p2 - x.p1);
-  row.rate = dot(v, row.w1);
-  row.bias = dot(b2.a - b1.a, row.w1) + dot(v, w_rate);
-}
-
-template <class Real>
-inline void update_line_row(const ClosurePose<Real>& x, const BodyState<Real>& b1,
-                            const BodyState<Real>& b2, RowState<Real>& row) {
+inline void update_line_row(const ClosureState<Real>& x, RowState<Real>& row) {
   const Vec3<Real> gap = x.p2 - x.p1;
   const Real length = sqrt(dot(gap, gap));
   const auto coincident = length < Real(1e-150);
-  const Real inverse =
-      select(coincident, Real(0.0), Real(1.0) / select(coincident, Real(1.0), length));
-  row.w1 = row.w2 = line_force(x.p2, inverse * gap);
+  const Real one(1.0), none(0.0);
+  row.force = select(coincident, none, one / select(coincident, one, length)) * gap;
   row.d = length;
-  row.rate = dot(b2.v - b1.v, row.w1);
-  row.bias = Real(0.0);  // never a constraint
+  row.rate = dot(row.force, x.v2 - x.v1);
+  row.bias = none;  // never a constraint
 }
 
 template <class Real>
-inline void update_rotation_row(const Vec3<Real>& a, const Vec3<Real>& b, Real sign,
+inline void update_rotation_row(const Row& r, const ClosureState<Real>& x,
                                 const BodyState<Real>& b1, const BodyState<Real>& b2,
                                 RowState<Real>& row) {
-  const Vec3<Real> n = sign * cross(b, a);
-  const Vec3<Real> n_rate =
-      sign * (cross(cross(b2.v.angular, b), a) + cross(b, cross(b1.v.angular, a)));
-  const Vec3<Real> omega = b2.v.angular - b1.v.angular;
-  row.w1 = row.w2 = {n, zero3<Real>()};
+  const Vec3<Real>& a = column(x.r1, r.axis);
+  const Vec3<Real>& b = column(x.r2, r.other);
+  const Real sign(r.sign);
+  const Vec3<Real> omega = b2.omega - b1.omega;
+  const Vec3<Real> rate = cross(cross(b2.omega, b), a) + cross(b, cross(b1.omega, a));
+  row.couple = sign * cross(b, a);
   row.d = sign * dot(a, b);
-  row.rate = dot(n, omega);
-  row.bias = dot(n, b2.a.angular - b1.a.angular) + dot(n_rate, omega);
+  row.rate = dot(row.couple, omega);
+  row.bias = dot(row.couple, b2.alpha - b1.alpha) + sign * dot(rate, omega);
 }
 
+// One row; `acceleration` is gap_acceleration, used for the bias only.
 template <class Real>
-inline void update_row(const Row& r, const ClosurePose<Real>& x, const Mat3<Real>& springs,
-                       const BodyState<Real>& b1, const BodyState<Real>& b2, RowState<Real>& row) {
+inline void update_row(const Row& r, const ClosureState<Real>& x, const Mat3<Real>& springs,
+                       const BodyState<Real>& b1, const BodyState<Real>& b2,
+                       const Vec3<Real>& acceleration, RowState<Real>& row) {
   switch (r.kind) {
     case RowKind::translation_ground:
-      return update_ground_row(x, ground_axis<Real>(r.axis), b1, b2, row);
-    case RowKind::translation_first:
-      return update_moving_row(x, column(x.r1, r.axis), b1, b2, row);
+      row.d = component(x.p2, r.axis) - component(x.p1, r.axis);
+      row.rate = component(x.v2, r.axis) - component(x.v1, r.axis);
+      row.bias = component(acceleration, r.axis);
+      return;
     case RowKind::spring_ground:
-      return update_ground_row(x, column(springs, r.axis), b1, b2, row);
-    case RowKind::spring_first:
-      return update_moving_row(x, x.r1 * column(springs, r.axis), b1, b2, row);
+      row.force = column(springs, r.axis);
+      row.d = dot(row.force, x.p2 - x.p1);
+      row.rate = dot(row.force, x.v2 - x.v1);
+      row.bias = dot(row.force, acceleration);
+      return;
+    case RowKind::translation_first:
+    case RowKind::spring_first: {
+      const bool spring = r.kind == RowKind::spring_first;
+      row.force = spring ? x.r1 * column(springs, r.axis) : column(x.r1, r.axis);
+      const TurningGap<Real> seen = gap_seen_from_first(b1, x, acceleration);
+      row.d = dot(row.force, seen.gap);
+      row.rate = dot(row.force, seen.rate);
+      row.bias = dot(row.force, seen.acceleration);
+      return;
+    }
     case RowKind::line_of_centres:
-      return update_line_row(x, b1, b2, row);
+      return update_line_row(x, row);
     case RowKind::rotation:
-      return update_rotation_row(column(x.r1, r.axis), column(x.r2, r.other), Real(r.sign), b1, b2,
-                                 row);
+      return update_rotation_row(r, x, b1, b2, row);
   }
 }
 
-// Rows of all closures of one list (Mechanism::cut_rows or sde_rows).
+// Rows of all closures of one model.
 template <class Real>
 inline void update_rows(const Mechanism& m, const Parameters<Real>& p, ClosureModel model,
                         Workspace<Real>& w) {
   const bool cut = model == ClosureModel::cut;
   const Row* rows = cut ? m.cut_rows.data() : m.sde_rows.data();
   RowState<Real>* states = cut ? w.cut_rows.data() : w.sde_rows.data();
+  const BodyState<Real>* bodies = w.bodies.data();
   for (std::size_t i = 0; i < m.closures.size(); ++i) {
     const ClosureStructure& c = m.closures[i];
     if (c.model != model) continue;
-    const ClosurePose<Real> x = closure_pose(c, p.closures[i], w.bodies.data());
+    ClosureState<Real>& x = w.closures[i];
+    update_closure_pose(m, c, p.closures[i], bodies, x);
+    const Vec3<Real> acceleration = cut ? gap_acceleration(m, c, bodies, x) : zero3<Real>();
     for (int r = c.row_begin; r < c.row_end; ++r) {
-      update_row(rows[r], x, p.closures[i].springs, w.bodies[static_cast<std::size_t>(c.first)],
-                 w.bodies[static_cast<std::size_t>(c.second)], states[r]);
+      update_row(rows[r], x, p.closures[i].springs, bodies[c.first], bodies[c.second], acceleration,
+                 states[r]);
     }
   }
+}
+
+// Sums of value times unit wrench over the rows of a closure, for the bodies and for output.
+template <class Real>
+inline void sum_row_forces(const ClosureStructure& c, const Row* rows, const RowState<Real>* states,
+                           ClosureState<Real>& x) {
+  x.force_points = x.force_second = x.couple = zero3<Real>();
+  for (int r = c.row_begin; r < c.row_end; ++r) {
+    const RowState<Real>& row = states[r];
+    switch (rows[r].kind) {
+      case RowKind::translation_ground:
+        if (rows[r].axis == 0) x.force_points.x = x.force_points.x + row.value;
+        if (rows[r].axis == 1) x.force_points.y = x.force_points.y + row.value;
+        if (rows[r].axis == 2) x.force_points.z = x.force_points.z + row.value;
+        break;
+      case RowKind::spring_ground:
+        x.force_points = madd(row.value, row.force, x.force_points);
+        break;
+      case RowKind::rotation:
+        x.couple = madd(row.value, row.couple, x.couple);
+        break;
+      default:
+        x.force_second = madd(row.value, row.force, x.force_second);
+    }
+  }
+}
+
+// Adds the closure's forces, times -1, to the wrenches that the bodies need: +f on the first body,
+// -f on the second.
+template <class Real>
+inline void subtract_closure_forces(const ClosureStructure& c, const ClosureState<Real>& x,
+                                    const BodyState<Real>* bodies, Wrench<Real>& first,
+                                    Wrench<Real>& second) {
+  subtract_force(first, x.arm_1, x.force_points);
+  add_force(second, x.arm_2, x.force_points);
+  if (!c.needs_frames && !c.has_line) return;
+  subtract_force(first, x.p2 - bodies[c.first].p, x.force_second);
+  add_force(second, x.arm_2, x.force_second);
+  first.moment = first.moment - x.couple;
+  second.moment = second.moment + x.couple;
 }
 
 }  // namespace linkstudy

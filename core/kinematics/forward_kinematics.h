@@ -1,6 +1,5 @@
-// Poses, velocities, qdd-free accelerations, unit motions and inertias of all bodies, ground to
-// tips. X_WB = X_WP X_PJ X_J(q); gravity enters as an acceleration -g of the ground
-// ([Featherstone, ch. 5.3]).
+// Poses, velocities, qdd-free accelerations, axes and inertias of all bodies, ground to tips.
+// X_WB = X_WP X_PJ X_J(q); gravity enters as an acceleration -g of the ground.
 #pragma once
 
 #include "core/kinematics/joint_kinematics.h"
@@ -9,50 +8,110 @@
 
 namespace linkstudy {
 
+// R a for a constant vector a of known shape.
 template <class Real>
-inline void set_ground(const Parameters<Real>& p, BodyState<Real>& ground) {
-  ground.r = identity3<Real>();
-  ground.p = zero3<Real>();
-  ground.v = {zero3<Real>(), zero3<Real>()};
-  ground.a = {zero3<Real>(), Real(-1.0) * p.gravity};
+inline Vec3<Real> rotate(const Mat3<Real>& r, const Vec3<Real>& a, VectorShape shape) {
+  switch (shape) {
+    case VectorShape::along_x:
+      return a.x * r.x;
+    case VectorShape::along_y:
+      return a.y * r.y;
+    case VectorShape::along_z:
+      return a.z * r.z;
+    case VectorShape::zero:
+      return zero3<Real>();
+    case VectorShape::general:
+      break;
+  }
+  return r * a;
 }
 
 template <class Real>
+inline const Vec3<Real>& column(const Mat3<Real>& m, int i) {
+  return i == 0 ? m.x : i == 1 ? m.y : m.z;
+}
+
+template <class Real>
+inline Vec3<Real> signed_column(const Mat3<Real>& m, int axis, int sign) {
+  const Vec3<Real>& a = column(m, axis);
+  return sign > 0 ? a : Real(-1.0) * a;
+}
+
+template <class Real>
+inline Mat3<Real> turned_frame(const Body& body, const Mat3<Real>& parent,
+                               const Mat3<Real>& frame) {
+  if (body.frame == RotationShape::identity) return parent;
+  if (body.frame == RotationShape::general) return parent * frame;
+  const QuarterTurn& t = body.quarter;
+  return {signed_column(parent, t.axis[0], t.sign[0]), signed_column(parent, t.axis[1], t.sign[1]),
+          signed_column(parent, t.axis[2], t.sign[2])};
+}
+
+// Joint frame in the parent, before the joint moves.
+template <class Real>
 inline Moving<Real> joint_frame(const Body& body, const BodyParameters<Real>& n,
-                                const BodyState<Real>& parent) {
-  Moving<Real> x{parent.r, parent.p, parent.v, parent.a};
+                                const BodyState<Real>& parent, const Body& parent_body) {
   if (body.parent == 0) {
-    x.r = n.frame;
-    x.p = n.origin;
-    return x;
+    return {n.frame, n.origin, parent.omega, parent.v, parent.alpha, parent.a, false, false};
   }
-  if (body.offset_frame) x.p = x.p + parent.r * n.origin;
-  if (body.rotated_frame) x.r = parent.r * n.frame;
+  Moving<Real> x{turned_frame(body, parent.r, n.frame),
+                 parent.p,
+                 parent.omega,
+                 parent.v,
+                 parent.alpha,
+                 parent.a,
+                 parent_body.rotates,
+                 parent_body.gyrates};
+  if (body.offset != VectorShape::zero) {
+    const Vec3<Real> r = rotate(parent.r, n.origin, body.offset);
+    x.p = x.p + r;
+    if (x.rotates) {
+      const Vec3<Real> carried = cross(x.omega, r);
+      x.v = x.v + carried;
+      x.a = x.a + cross(x.omega, carried);
+      if (x.gyrates) x.a = x.a + cross(x.alpha, r);
+    }
+  }
   return x;
 }
 
 template <class Real>
-inline Inertia<Real> world_inertia(const Body& body, const BodyParameters<Real>& n,
-                                   const Mat3<Real>& r, const Vec3<Real>& p) {
-  const Vec3<Real> center = body.offset_mass ? p + r * n.center : p;
-  const Sym3<Real> i =
-      body.diagonal_inertia
-          ? rotate_diagonal(r, Vec3<Real>{n.inertia.xx, n.inertia.yy, n.inertia.zz})
-          : rotate(r, n.inertia);
-  return shift_to_origin(n.mass, center, i);
+inline Sym3<Real> world_inertia(InertiaShape shape, const Sym3<Real>& i, const Mat3<Real>& r) {
+  switch (shape) {
+    case InertiaShape::isotropic:
+      return {i.xx, i.xx, i.xx, Real(0.0), Real(0.0), Real(0.0)};
+    case InertiaShape::about_x:
+      return axisymmetric(i.yy, i.xx - i.yy, r.x);
+    case InertiaShape::about_y:
+      return axisymmetric(i.xx, i.yy - i.xx, r.y);
+    case InertiaShape::about_z:
+      return axisymmetric(i.xx, i.zz - i.xx, r.z);
+    case InertiaShape::general:
+      break;
+  }
+  return rotate(r, i);
+}
+
+template <class Real>
+inline void set_ground(const Parameters<Real>& p, BodyState<Real>& ground) {
+  const Vec3<Real> zero = zero3<Real>();
+  ground.r = identity3<Real>();
+  ground.p = ground.shift = ground.omega = ground.v = ground.alpha = zero;
+  ground.a = Real(-1.0) * p.gravity;
 }
 
 template <class Real>
 inline void update_kinematics(const Mechanism& m, const Parameters<Real>& p, const Real* q,
                               const Real* v, Workspace<Real>& w) {
   BodyState<Real>* bodies = w.bodies.data();
-  Motion<Real>* axes = w.axes.data();
+  Vec3<Real>* axes = w.axes.data();
   set_ground(p, bodies[0]);
   const int nb = m.body_count();
   for (int b = 1; b < nb; ++b) {
     const Body& body = m.bodies[static_cast<std::size_t>(b)];
     const BodyParameters<Real>& n = p.bodies[static_cast<std::size_t>(b)];
-    Moving<Real> x = joint_frame(body, n, bodies[body.parent]);
+    const BodyState<Real>& parent = bodies[body.parent];
+    Moving<Real> x = joint_frame(body, n, parent, m.bodies[static_cast<std::size_t>(body.parent)]);
     for (int i = body.stage_begin; i < body.stage_end; ++i) {
       const Stage& stage = m.stages[static_cast<std::size_t>(i)];
       pass_stage(stage, p.pitch[static_cast<std::size_t>(i)], q + stage.q, v + stage.v, x,
@@ -61,9 +120,14 @@ inline void update_kinematics(const Mechanism& m, const Parameters<Real>& p, con
     BodyState<Real>& s = bodies[b];
     s.r = x.r;
     s.p = x.p;
+    if (body.shifted) s.shift = x.p - parent.p;
+    s.omega = x.omega;
     s.v = x.v;
+    s.alpha = x.alpha;
     s.a = x.a;
-    s.inertia = world_inertia(body, n, x.r, x.p);
+    s.inertia.m = n.mass;
+    s.inertia.h = rotate(x.r, n.moment, body.center);
+    if (body.rotates) s.inertia.i = world_inertia(body.inertia, n.inertia, x.r);
   }
 }
 

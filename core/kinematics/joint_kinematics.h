@@ -1,11 +1,13 @@
 // Motion of one joint: the only switch over kinds of basic motion.
 //
-// A joint is a sequence of stages. Stage k turns or shifts the frame reached so far and adds its
-// unit motion s_k times its velocity. Since s_k moves with the frame before it, the acceleration
-// for qdd = 0 grows by V x (s_k v_k), V being the velocity before the stage (after it is the same,
-// s_k x s_k = 0). A ball's three unit motions are the axes of the frame after it, and
-// V_after x (S w) = V_before x (S w), so the same formula holds.
-// Basic motions Z1 .. Z6: [Palcak]; unit motions: [Featherstone, ch. 4].
+// A joint is a sequence of stages. Each turns or shifts the frame reached so far:
+//   rotation about e     omega += e v,  alpha += omega x e v          (omega before the stage)
+//   translation along e  p += e q,  v_p += omega x e q + e v,
+//                        a_p += alpha x e q + omega x (omega x e q) + 2 omega x e v
+// with the derivatives for qdd = 0. A ball turns about the axes of the frame after it with
+// omega += R w, alpha += omega_before x R w. Every rotation axis passes through the origin after
+// the joint, so that a unit rotation of it is (e, 0) about that origin.
+// Basic motions Z1 .. Z6: [Palcak].
 #pragma once
 
 #include "core/base/elementary.h"
@@ -14,13 +16,17 @@
 
 namespace linkstudy {
 
-// Frame, velocity and qdd-free acceleration while stages are passed.
+// Frame and its motion while stages are passed; see BodyState.
 template <class Real>
 struct Moving {
   Mat3<Real> r;
   Vec3<Real> p;
-  Motion<Real> v;
-  Motion<Real> a;
+  Vec3<Real> omega;
+  Vec3<Real> v;
+  Vec3<Real> alpha;
+  Vec3<Real> a;
+  bool rotates;  // omega may differ from zero so far
+  bool gyrates;  // alpha may
 };
 
 // a c + b s and b c - a s: two axes turned about the third.
@@ -32,27 +38,37 @@ inline void turn(Vec3<Real>& a, Vec3<Real>& b, Real angle) {
   b = madd(t.cos, b, Real(-t.sin) * a0);
 }
 
+// Adds an angular velocity relative to the frame so far.
 template <class Real>
-inline void move_along(Moving<Real>& x, const Motion<Real>& s, Real rate) {
-  const Motion<Real> joint = rate * s;
-  x.a = x.a + cross(x.v, joint);
-  x.v = x.v + joint;
+inline void spin(Moving<Real>& x, const Vec3<Real>& relative) {
+  if (!x.rotates) {
+    x.omega = relative;
+    x.rotates = true;
+    return;
+  }
+  const Vec3<Real> turning = cross(x.omega, relative);
+  x.alpha = x.gyrates ? x.alpha + turning : turning;
+  x.gyrates = true;
+  x.omega = x.omega + relative;
+}
+
+// Moves the origin by a vector r of the frame so far that grows at `rate`.
+template <class Real>
+inline void shift(Moving<Real>& x, const Vec3<Real>& r, const Vec3<Real>& rate) {
+  x.p = x.p + r;
+  x.v = x.v + rate;
+  if (!x.rotates) return;
+  const Vec3<Real> carried = cross(x.omega, r);
+  x.v = x.v + carried;
+  x.a = x.a + cross(x.omega, madd(Real(2.0), rate, carried));
+  if (x.gyrates) x.a = x.a + cross(x.alpha, r);
 }
 
 template <class Real>
-inline void pass_translation(Moving<Real>& x, const Vec3<Real>& e, Real q, Real rate,
-                             Motion<Real>& s) {
-  s = {zero3<Real>(), e};
-  const Vec3<Real> joint = rate * e;
-  x.a.linear = x.a.linear + cross(x.v.angular, joint);
-  x.v.linear = x.v.linear + joint;
-  x.p = madd(q, e, x.p);
-}
-
-template <class Real>
-inline void pass_rotation(Moving<Real>& x, const Vec3<Real>& e, Real rate, Motion<Real>& s) {
-  s = {e, cross(x.p, e)};
-  move_along(x, s, rate);
+inline void pass_translation(Moving<Real>& x, const Vec3<Real>& e, Real q, Real v,
+                             Vec3<Real>& axis) {
+  axis = e;
+  shift(x, q * e, v * e);
 }
 
 // R(w, x, y, z) of a unit quaternion.
@@ -65,50 +81,44 @@ inline Mat3<Real> rotation_of(const Real* h) {
           {two * (x * z + w * y), two * (y * z - w * x), one - two * (x * x + y * y)}};
 }
 
-template <class Real>
-inline void pass_ball(Moving<Real>& x, const Real* q, const Real* v, Motion<Real>* s) {
-  x.r = x.r * rotation_of(q);
-  s[0] = {x.r.x, cross(x.p, x.r.x)};
-  s[1] = {x.r.y, cross(x.p, x.r.y)};
-  s[2] = {x.r.z, cross(x.p, x.r.z)};
-  const Motion<Real> joint = madd(v[0], s[0], madd(v[1], s[1], v[2] * s[2]));
-  x.a = x.a + cross(x.v, joint);
-  x.v = x.v + joint;
-}
-
-// Passes one stage; writes its unit motions to s (1, a ball 3).
+// Passes one stage; writes its axes (1, a ball 3).
 template <class Real>
 inline void pass_stage(const Stage& stage, Real pitch, const Real* q, const Real* v,
-                       Moving<Real>& x, Motion<Real>* s) {
+                       Moving<Real>& x, Vec3<Real>* axis) {
   switch (stage.motion) {
     case BasicMotion::rz:
-      pass_rotation(x, x.r.z, *v, *s);
+      *axis = x.r.z;
+      spin(x, *v * x.r.z);
       turn(x.r.x, x.r.y, *q);
       return;
     case BasicMotion::tz:
-      return pass_translation(x, x.r.z, *q, *v, *s);
+      return pass_translation(x, x.r.z, *q, *v, *axis);
     case BasicMotion::ry:
-      pass_rotation(x, x.r.y, *v, *s);
+      *axis = x.r.y;
+      spin(x, *v * x.r.y);
       turn(x.r.z, x.r.x, *q);
       return;
     case BasicMotion::rx:
-      pass_rotation(x, x.r.x, *v, *s);
+      *axis = x.r.x;
+      spin(x, *v * x.r.x);
       turn(x.r.y, x.r.z, *q);
       return;
     case BasicMotion::tx:
-      return pass_translation(x, x.r.x, *q, *v, *s);
+      return pass_translation(x, x.r.x, *q, *v, *axis);
     case BasicMotion::ty:
-      return pass_translation(x, x.r.y, *q, *v, *s);
-    case BasicMotion::screw: {
-      const Vec3<Real> e = x.r.z;
-      *s = {e, madd(pitch, e, cross(x.p, e))};
-      move_along(x, *s, *v);
-      x.p = madd(pitch * *q, e, x.p);
+      return pass_translation(x, x.r.y, *q, *v, *axis);
+    case BasicMotion::screw:
+      pass_translation(x, x.r.z, pitch * *q, pitch * *v, *axis);
+      spin(x, *v * x.r.z);
       turn(x.r.x, x.r.y, *q);
       return;
-    }
     case BasicMotion::ball:
-      return pass_ball(x, q, v, s);
+      x.r = x.r * rotation_of(q);
+      axis[0] = x.r.x;
+      axis[1] = x.r.y;
+      axis[2] = x.r.z;
+      spin(x, madd(v[0], x.r.x, madd(v[1], x.r.y, v[2] * x.r.z)));
+      return;
   }
 }
 

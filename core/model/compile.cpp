@@ -75,6 +75,51 @@ const Link& find_link(const Linkage& linkage, const std::string& name) {
                        [&](const Link& link) { return link.name == name; });
 }
 
+// Exactly zero entries are what the step loop may skip: a shape follows from the numbers given.
+VectorShape shape_of(const Eigen::Vector3d& a) {
+  const int count = int(a.x() != 0.0) + int(a.y() != 0.0) + int(a.z() != 0.0);
+  if (count == 0) return VectorShape::zero;
+  if (count > 1) return VectorShape::general;
+  return a.x() != 0.0   ? VectorShape::along_x
+         : a.y() != 0.0 ? VectorShape::along_y
+                        : VectorShape::along_z;
+}
+
+RotationShape shape_of(const Eigen::Matrix3d& r, QuarterTurn& quarter) {
+  for (int j = 0; j < 3; ++j) {
+    int axis = 0;
+    const double largest = r.col(j).cwiseAbs().maxCoeff(&axis);
+    if (largest != 1.0 || r.col(j).squaredNorm() != 1.0) return RotationShape::general;
+    quarter.axis[static_cast<std::size_t>(j)] = static_cast<std::int8_t>(axis);
+    quarter.sign[static_cast<std::size_t>(j)] = r(axis, j) > 0.0 ? 1 : -1;
+  }
+  return r.isIdentity(0.0) ? RotationShape::identity : RotationShape::quarter;
+}
+
+// Differences below rounding of the sum count as equal.
+InertiaShape shape_of_inertia(const Eigen::Matrix3d& i) {
+  const double rounding = 1e-15 * i.trace();
+  const auto same = [&](double a, double b) { return std::abs(a - b) <= rounding; };
+  if (!same(i(0, 1), 0.0) || !same(i(0, 2), 0.0) || !same(i(1, 2), 0.0)) {
+    return InertiaShape::general;
+  }
+  const bool xy = same(i(0, 0), i(1, 1));
+  const bool yz = same(i(1, 1), i(2, 2));
+  const bool xz = same(i(0, 0), i(2, 2));
+  if (xy && yz) return InertiaShape::isotropic;
+  return xy   ? InertiaShape::about_z
+         : yz ? InertiaShape::about_x
+         : xz ? InertiaShape::about_y
+              : InertiaShape::general;
+}
+
+bool is_rotation(BasicMotion motion) {
+  return motion >= BasicMotion::rx;
+}
+bool is_translation(BasicMotion motion) {
+  return motion <= BasicMotion::tz || motion == BasicMotion::screw;
+}
+
 class Compiler {
  public:
   explicit Compiler(const Linkage& linkage) : linkage_(linkage) {}
@@ -93,7 +138,9 @@ class Compiler {
   Parameters<double>& parameters() { return model_.parameters; }
 
   void add_ground() {
-    mechanism().bodies.emplace_back();
+    Body ground;
+    ground.shifted = ground.rotates = ground.gyrates = false;
+    mechanism().bodies.push_back(ground);
     parameters().bodies.emplace_back();
     mechanism().link_names.emplace_back(kGround);
     mechanism().joint_names.emplace_back();
@@ -108,22 +155,25 @@ class Compiler {
     Body body;
     body.parent = body_of_.at(joint.parent);
     const Frame frame = link_frames_[static_cast<std::size_t>(body.parent)] * joint.frame;
-    body.rotated_frame = !frame.rotation.isApprox(Eigen::Matrix3d::Identity(), 0.0);
-    body.offset_frame = frame.position.squaredNorm() != 0.0;
+    body.frame = shape_of(frame.rotation, body.quarter);
+    body.offset = shape_of(frame.position);
     add_stages(joint, index, body);
+    find_motion(body);
 
     const Eigen::Vector3d center = link_frame.rotation * link.center_of_mass + link_frame.position;
-    Eigen::Matrix3d inertia = link_frame.rotation * link.inertia * link_frame.rotation.transpose();
-    const double off =
-        std::max({std::abs(inertia(0, 1)), std::abs(inertia(0, 2)), std::abs(inertia(1, 2))});
-    body.diagonal_inertia = off <= 1e-16 * inertia.trace();
-    body.offset_mass = center.squaredNorm() != 0.0;
+    const Eigen::Matrix3d about_center =
+        link_frame.rotation * link.inertia * link_frame.rotation.transpose();
+    const Eigen::Matrix3d inertia =
+        about_center + link.mass * (center.squaredNorm() * Eigen::Matrix3d::Identity() -
+                                    center * center.transpose());
+    body.center = shape_of(center);
+    body.inertia = shape_of_inertia(inertia);
     m.bodies.push_back(body);
     m.link_names.push_back(link.name);
     m.joint_names.push_back(joint.name);
     link_frames_.push_back(link_frame);
     parameters().bodies.push_back({to_mat3(frame.rotation), to_vec3(frame.position), link.mass,
-                                   to_vec3(center), to_sym3(inertia)});
+                                   to_vec3(link.mass * center), to_sym3(inertia)});
   }
 
   void add_stages(const Joint& joint, int index, Body& body) {
@@ -135,8 +185,14 @@ class Compiler {
       m.stages.push_back({motion, m.nq, m.nv});
       parameters().pitch.push_back(joint.pitch);
       if (motion == BasicMotion::ball) m.ball_q.push_back(m.nq);
+      const int count = motion == BasicMotion::ball ? 3 : 1;
+      const int stage = static_cast<int>(m.stages.size()) - 1;
+      for (int k = 0; k < count; ++k) {
+        m.v_rotates.push_back(is_rotation(motion) ? 1 : 0);
+        m.v_screw.push_back(motion == BasicMotion::screw ? stage : -1);
+      }
       m.nq += motion == BasicMotion::ball ? 4 : 1;
-      m.nv += motion == BasicMotion::ball ? 3 : 1;
+      m.nv += count;
     }
     body.stage_end = static_cast<int>(m.stages.size());
     body.q_count = m.nq - body.q_begin;
@@ -147,6 +203,23 @@ class Compiler {
       if (joint.hold) model_.held.push_back(k);
     }
     add_start(joint, body);
+  }
+
+  // What can move at all; the rules are those of joint_kinematics `spin` and `shift`.
+  void find_motion(Body& body) const {
+    const Mechanism& m = model_.mechanism;
+    const Body& parent = m.bodies[static_cast<std::size_t>(body.parent)];
+    body.rotates = parent.rotates;
+    body.gyrates = parent.gyrates;
+    body.shifted = body.parent != 0 && body.offset != VectorShape::zero;
+    for (int i = body.stage_begin; i < body.stage_end; ++i) {
+      const BasicMotion motion = m.stages[static_cast<std::size_t>(i)].motion;
+      if (is_rotation(motion)) {
+        body.gyrates = body.gyrates || body.rotates;
+        body.rotates = true;
+      }
+      body.shifted = body.shifted || (body.parent != 0 && is_translation(motion));
+    }
   }
 
   // Last velocity on the path from a body to ground, itself included.
@@ -193,11 +266,20 @@ class Compiler {
     c.last_1 = last_velocity(c.first);
     c.last_2 = last_velocity(c.second);
     c.support = support_of(c);
-    m.closures.push_back(c);
+    for (int r = c.row_begin; r < c.row_end; ++r) {
+      const RowKind kind = rows[static_cast<std::size_t>(r)].kind;
+      c.has_line = c.has_line || kind == RowKind::line_of_centres;
+      c.needs_frames = c.needs_frames || kind == RowKind::rotation ||
+                       kind == RowKind::translation_first || kind == RowKind::spring_first;
+    }
+    c.point_rows = cut && (blocked_directions(closure.type) & 7u) == 7u;
     m.closure_names.push_back(closure.name);
 
     const Frame f1 = link_frames_[static_cast<std::size_t>(c.first)] * closure.first.frame;
     const Frame f2 = link_frames_[static_cast<std::size_t>(c.second)] * closure.second.frame;
+    c.point_1 = shape_of(f1.position);
+    c.point_2 = shape_of(f2.position);
+    m.closures.push_back(c);
     const bool baumgarte = closure.stabilization == Stabilization::baumgarte;
     parameters().closures.push_back(
         {to_mat3(f1.rotation), to_vec3(f1.position), to_mat3(f2.rotation), to_vec3(f2.position),
@@ -286,7 +368,9 @@ class Compiler {
                     .course = load.course.shape,
                     .law = load.law.shape};
     LoadParameters<double> p{load.course.value, 0.0, {}, {}};
-    if (load.course.duration > 0.0) p.rate = 1.0 / load.course.duration;
+    const bool rises = s.course == CourseShape::ramp || s.course == CourseShape::smooth;
+    if (rises && load.course.duration > 0.0) p.rate = 1.0 / load.course.duration;
+    if (rises && load.course.duration == 0.0) s.course = CourseShape::constant;
     if (load.type == LoadType::drive || load.type == LoadType::resistance) s.v = velocity_of(load);
     if (load.type == LoadType::resistance) {
       const bool linear = load.law.shape == ResistanceShape::linear;
@@ -304,18 +388,17 @@ class Compiler {
     parameters().loads.push_back(p);
   }
 
-  // value * table(t) as a start value and one segment for each interval.
+  // A start value and one segment for each interval.
   void add_table(const Course& course, LoadStructure& s, LoadParameters<double>& p) {
-    const double scale = course.value == 0.0 ? 1.0 : course.value;
     s.table_begin = mechanism().table_segments;
     for (std::size_t i = 1; i < course.times.size(); ++i) {
       const double length = course.times[i] - course.times[i - 1];
-      const double rise = scale * (course.values[i] - course.values[i - 1]);
+      const double rise = course.values[i] - course.values[i - 1];
       parameters().segments.push_back({course.times[i - 1], length, rise / length});
       ++mechanism().table_segments;
     }
     s.table_end = mechanism().table_segments;
-    p.value = scale * course.values.front();
+    p.value = course.values.front();
   }
 
   const Linkage& linkage_;
@@ -337,8 +420,8 @@ Model compile(const Linkage& linkage) {
 namespace {
 
 auto key(const Body& b) {
-  return std::tuple(b.parent, b.stage_begin, b.stage_end, b.q_begin, b.v_begin, b.rotated_frame,
-                    b.offset_frame, b.diagonal_inertia, b.offset_mass);
+  return std::tuple(b.parent, b.stage_begin, b.stage_end, b.q_begin, b.v_begin, b.frame,
+                    b.quarter.axis, b.quarter.sign, b.offset, b.center, b.inertia);
 }
 auto key(const Stage& s) {
   return std::tuple(s.motion, s.q, s.v);
@@ -347,7 +430,8 @@ auto key(const Row& r) {
   return std::tuple(r.kind, r.closure, r.axis, r.other, r.sign, r.direction);
 }
 auto key(const ClosureStructure& c) {
-  return std::tuple(c.first, c.second, c.model, c.stabilization, c.row_begin, c.row_end);
+  return std::tuple(c.first, c.second, c.model, c.stabilization, c.row_begin, c.row_end, c.point_1,
+                    c.point_2);
 }
 auto key(const LoadStructure& l) {
   return std::tuple(l.type, l.v, l.body, l.follows_link, l.course, l.law, l.table_begin,

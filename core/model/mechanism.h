@@ -9,6 +9,7 @@
 // z, or a ball (unit quaternion).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -25,15 +26,32 @@ struct Stage {
   int v;  // first velocity index; a ball has 3 (angular velocity in the joint's child frame)
 };
 
+// How much of a constant vector or rotation is not trivial: what the step loop may skip.
+enum class VectorShape : std::uint8_t { zero, along_x, along_y, along_z, general };
+// quarter: a signed permutation of the axes (turns by multiples of 90 deg).
+enum class RotationShape : std::uint8_t { identity, quarter, general };
+// Inertia about the internal origin: a 1, a 1 + b e e^T with e an internal axis, or any.
+enum class InertiaShape : std::uint8_t { isotropic, about_x, about_y, about_z, general };
+
+// A signed permutation: column i of the result is sign[i] times column axis[i].
+struct QuarterTurn {
+  std::array<std::int8_t, 3> axis{0, 1, 2};
+  std::array<std::int8_t, 3> sign{1, 1, 1};
+};
+
 struct Body {
   int parent = 0;
   int stage_begin = 0, stage_end = 0;
   int q_begin = 0, q_count = 0;
   int v_begin = 0, v_count = 0;
-  bool rotated_frame = true;     // joint frame in the parent is not parallel to it
-  bool offset_frame = true;      // joint frame in the parent has another origin
-  bool diagonal_inertia = true;  // in the internal frame
-  bool offset_mass = true;       // centre of mass away from the internal origin
+  RotationShape frame = RotationShape::general;  // joint frame in the parent
+  QuarterTurn quarter;
+  VectorShape offset = VectorShape::general;  // origin of the joint frame in the parent
+  VectorShape center = VectorShape::general;  // centre of mass
+  InertiaShape inertia = InertiaShape::general;
+  bool shifted = true;  // the internal origin is not the parent's
+  bool rotates = true;  // angular velocity may differ from zero
+  bool gyrates = true;  // angular acceleration for qdd = 0 may differ from zero
 };
 
 // A scalar direction of a closure: its displacement d, rate, and the wrench that works on it.
@@ -64,9 +82,14 @@ struct ClosureStructure {
   int first = 0, second = 0;  // bodies
   ClosureModel model = ClosureModel::cut;
   Stabilization stabilization = Stabilization::none;
-  int row_begin = 0, row_end = 0;  // in Mechanism::cut_rows or sde_rows
-  int last_1 = -1, last_2 = -1;    // last velocity on each path to ground
-  std::vector<int> support;        // velocities on both paths to ground, descending
+  int row_begin = 0, row_end = 0;              // in Mechanism::cut_rows or sde_rows
+  int last_1 = -1, last_2 = -1;                // last velocity on each path to ground
+  std::vector<int> support;                    // velocities on both paths to ground, descending
+  bool needs_frames = false;                   // some row uses {1,e} or {2,e}
+  bool has_line = false;                       // some row is a line of centres
+  bool point_rows = false;                     // cut: rows start with all three ground axes
+  VectorShape point_1 = VectorShape::general;  // closure points in their bodies
+  VectorShape point_2 = VectorShape::general;
 };
 
 struct LoadStructure {
@@ -82,11 +105,13 @@ struct LoadStructure {
 struct Mechanism {
   int nq = 0;
   int nv = 0;
-  std::vector<Body> bodies;   // (nb), [0] ground
-  std::vector<Stage> stages;  // in body order
-  std::vector<int> v_parent;  // (nv) previous velocity on the path to ground, or -1
-  std::vector<int> v_body;    // (nv)
-  std::vector<int> ball_q;    // first position index of every quaternion
+  std::vector<Body> bodies;             // (nb), [0] ground
+  std::vector<Stage> stages;            // in body order
+  std::vector<int> v_parent;            // (nv) previous velocity on the path to ground, or -1
+  std::vector<int> v_body;              // (nv)
+  std::vector<std::uint8_t> v_rotates;  // (nv) 1: rotation (or screw), 0: translation
+  std::vector<int> v_screw;             // (nv) stage of a screw, or -1
+  std::vector<int> ball_q;              // first position index of every quaternion
   std::vector<ClosureStructure> closures;
   std::vector<Row> cut_rows;  // (nc) constraint rows, closure by closure
   std::vector<Row> sde_rows;  // (ns)

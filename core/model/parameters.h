@@ -13,8 +13,8 @@ struct BodyParameters {
   Mat3<Real> frame;    // R_PJ: joint frame in the parent's internal frame
   Vec3<Real> origin;   // p_PJ, m
   Real mass;           // kg
-  Vec3<Real> center;   // centre of mass in the internal frame, m
-  Sym3<Real> inertia;  // about the centre of mass, internal axes, kg m^2
+  Vec3<Real> moment;   // mass times centre of mass, internal frame, kg m
+  Sym3<Real> inertia;  // about the internal origin, internal axes, kg m^2
 };
 
 template <class Real>

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "core/closures/closure_wrench.h"
 #include "core/dynamics/energy.h"
 #include "core/dynamics/reactions.h"
 #include "core/model/state.h"
@@ -88,18 +89,18 @@ class Instant {
       case Quantity::joint_torque_local:
         return reaction(c);
       case Quantity::closure_force:
-        return component(compute_closure_wrench(m_, p_, w_, c.index).force, c.component);
+        return component(compute_closure_wrench(w_, c.index).force, c.component);
       case Quantity::closure_torque:
-        return component(compute_closure_wrench(m_, p_, w_, c.index).torque, c.component);
+        return component(compute_closure_wrench(w_, c.index).torque, c.component);
       case Quantity::closure_gap:
-        return component(compute_closure_wrench(m_, p_, w_, c.index).gap, c.component);
+        return component(compute_closure_wrench(w_, c.index).gap, c.component);
       default:
         return energy(c.quantity);
     }
   }
 
   Energy<Real> energy() {
-    if (!has_energy_) energy_ = compute_energy(p_, w_);
+    if (!has_energy_) energy_ = compute_energy(m_, p_, w_);
     has_energy_ = true;
     return energy_;
   }
@@ -111,8 +112,6 @@ class Instant {
   }
 
  private:
-  static Real component(const Vec3<Real>& a, int i) { return i == 0 ? a.x : i == 1 ? a.y : a.z; }
-
   Real energy(Quantity quantity) {
     switch (quantity) {
       case Quantity::kinetic:
@@ -129,15 +128,15 @@ class Instant {
   }
 
   Real reaction(const Channel& c) {
-    if (!has_reactions_) update_reactions(m_, w_, accelerations_, reactions_);
+    if (!has_reactions_) update_reactions(m_, p_, w_, accelerations_, reactions_);
     has_reactions_ = true;
     const BodyState<Real>& b = w_.bodies[static_cast<std::size_t>(c.index)];
-    const Force<Real>& f = reactions_[static_cast<std::size_t>(c.index)];
+    const Wrench<Real>& f = reactions_[static_cast<std::size_t>(c.index)];
     const bool force =
         c.quantity == Quantity::joint_force || c.quantity == Quantity::joint_force_local;
     const bool local =
         c.quantity == Quantity::joint_force_local || c.quantity == Quantity::joint_torque_local;
-    const Vec3<Real> ground = force ? f.force : f.moment - cross(b.p, f.force);
+    const Vec3<Real>& ground = force ? f.force : f.moment;
     return component(local ? transpose_times(b.r, ground) : ground, c.component);
   }
 
@@ -146,8 +145,8 @@ class Instant {
   const Workspace<Real>& w_;
   double t_ = 0.0;
   const Real* y_ = nullptr;
-  std::vector<Motion<Real>> accelerations_;  // (nb)
-  std::vector<Force<Real>> reactions_;       // (nb)
+  std::vector<BodyState<Real>> accelerations_;  // (nb)
+  std::vector<Wrench<Real>> reactions_;         // (nb)
   Energy<Real> energy_{};
   Real initial_energy_ = Real(0.0);
   bool has_reactions_ = false;

@@ -46,7 +46,7 @@ struct Comparison {
 
 // Extremes and moments of one channel over a window.
 template <class Real>
-struct Reduction {
+struct ChannelReduction {
   Channel channel;
   Sampling sampling;
   long seen = 0;
@@ -61,7 +61,7 @@ template <class Real>
 struct Observers {
   std::vector<Series<Real>> series;
   std::vector<Comparison<Real>> comparisons;
-  std::vector<Reduction<Real>> reductions;
+  std::vector<ChannelReduction<Real>> reductions;
 };
 
 template <class Real>
@@ -88,7 +88,7 @@ inline void observe(Comparison<Real>& s, long step, Instant<Real>& now) {
 }
 
 template <class Real>
-inline void observe(Reduction<Real>& s, long step, Instant<Real>& now) {
+inline void observe(ChannelReduction<Real>& s, long step, Instant<Real>& now) {
   if (!s.sampling.hits(step)) return;
   const Real x = now.sample(s.channel);
   s.min = min(s.min, x);

@@ -43,7 +43,7 @@ class Run {
     reserve(observers_);
   }
 
-  RunOutcome run() {
+  SimulationOutcome run() {
     const auto begin = Clock::now();
     long step = 0;
     for (;; ++step) {
@@ -80,11 +80,7 @@ class Run {
   void finish_step() {
     if (!m_.ball_q.empty()) normalize_quaternions(m_, y_.data());
     if (!m_.projects) return;
-    update_kinematics(m_, p_, y_.data(), y_.data() + m_.nq, w_);
-    update_applied_forces(m_, p_, 0.0, y_.data() + m_.nq, w_);
-    update_bias(m_, w_);
-    update_mass_matrix(m_, w_);
-    factorize_branch_sparse(m_.nv, m_.v_parent.data(), w_.mass.data(), w_.inverse_pivot.data());
+    update_factored_mass_matrix(m_, p_, 0.0, y_.data(), y_.data() + m_.nq, w_);
     project(m_, p_, y_.data(), y_.data() + m_.nq, correction_.data(), w_);
   }
 
@@ -169,7 +165,7 @@ class Run {
   Workspace<Real> w_;
   RungeKutta<ClassicalRungeKutta, Real> rk_;
   Instant<Real> now_;
-  RunOutcome outcome_;
+  SimulationOutcome outcome_;
   Real initial_energy_ = Real(0.0);
   Real first_kinetic_ = Real(0.0);
   long energy_stride_ = 1;
@@ -183,9 +179,9 @@ StepGrid make_step_grid(const SimulationOptions& options) {
   return {count, options.end_time / static_cast<double>(count)};
 }
 
-RunOutcome simulate(const Mechanism& mechanism, const Parameters<double>& parameters,
-                    const State<double>& start, const SimulationOptions& options,
-                    Observers<double>& observers, const RunLimits& limits) {
+SimulationOutcome simulate(const Mechanism& mechanism, const Parameters<double>& parameters,
+                           const State<double>& start, const SimulationOptions& options,
+                           Observers<double>& observers, const RunLimits& limits) {
   return Run<double>(mechanism, parameters, start, options, observers, limits).run();
 }
 

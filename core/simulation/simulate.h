@@ -24,7 +24,7 @@ struct RunLimits {
   const std::atomic<bool>* cancelled = nullptr;  // checked now and then
 };
 
-struct RunOutcome {
+struct SimulationOutcome {
   Cause cause = Cause::ok;
   std::string message;
   double end_time = 0.0;             // reached, s
@@ -36,8 +36,8 @@ struct RunOutcome {
   State<double> final_state;
 };
 
-RunOutcome simulate(const Mechanism& mechanism, const Parameters<double>& parameters,
-                    const State<double>& start, const SimulationOptions& options,
-                    Observers<double>& observers, const RunLimits& limits = {});
+SimulationOutcome simulate(const Mechanism& mechanism, const Parameters<double>& parameters,
+                           const State<double>& start, const SimulationOptions& options,
+                           Observers<double>& observers, const RunLimits& limits = {});
 
 }  // namespace linkstudy
