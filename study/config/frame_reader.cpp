@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 // Entries below the rounding of the angles, such as cos(90 deg) = 6e-17, are zero.
 Matrix3d without_dust(const Matrix3d& rotation) {
   const auto clean = [](double entry) {
-    return std::abs(entry) < std::numeric_limits<double>::epsilon() ? 0.0 : entry;
+    return std::abs(entry) < 4.0 * std::numeric_limits<double>::epsilon() ? 0.0 : entry;
   };
   return rotation.unaryExpr(clean);
 }
@@ -52,6 +52,7 @@ class RotationReader {
 
  private:
   Matrix3d from_axis(const Tree& table, const Tree& axis, const Tree* angle) {
+    if (!axis.is_valid()) return Matrix3d::Identity();
     const Vector3d u =
         read_direction(&axis, Vector3d::UnitZ(), subject_ + "axis of rotation", diagnostics_);
     if (angle == nullptr) {
@@ -66,10 +67,10 @@ class RotationReader {
   Matrix3d from_euler(const Tree& value) {
     const Vector3d angles = read_vector(&value, Vector3d::Zero());
     using Eigen::AngleAxisd;
-    return without_dust(
-        (AngleAxisd(angles[0], Vector3d::UnitZ()) * AngleAxisd(angles[1], Vector3d::UnitY()) *
-         AngleAxisd(angles[2], Vector3d::UnitX()))
-            .toRotationMatrix());
+    const Matrix3d z = AngleAxisd(angles[0], Vector3d::UnitZ()).toRotationMatrix();
+    const Matrix3d y = AngleAxisd(angles[1], Vector3d::UnitY()).toRotationMatrix();
+    const Matrix3d x = AngleAxisd(angles[2], Vector3d::UnitX()).toRotationMatrix();
+    return without_dust(z * y * x);
   }
 
   Matrix3d from_quaternion(const Tree& value) {

@@ -105,6 +105,14 @@ std::string range_text(const Range& range) {
                      range.high_is_out ? ")" : "]");
 }
 
+std::string range_symbol(const Range& range) {
+  if (range.is_everything()) return {};
+  if (range.low == range.high) return fmt::format("{}", range.low);
+  if (std::isinf(range.high)) return fmt::format("{} {}", range.low_is_out ? ">" : ">=", range.low);
+  return fmt::format("{}{}, {}{}", range.low_is_out ? "(" : "[", range.low, range.high,
+                     range.high_is_out ? ")" : "]");
+}
+
 std::vector<std::string> unit_alternatives(const std::string& unit) {
   return split(unit, '|');
 }

@@ -94,6 +94,9 @@ std::vector<std::string> split_path(std::string_view path);
 // "must be positive", "must lie in (0, 1]"
 std::string range_text(const Range& range);
 
+// "> 0", "(0, 1]"; empty for everything
+std::string range_symbol(const Range& range);
+
 // "N|N m" -> {"N", "N m"}
 std::vector<std::string> unit_alternatives(const std::string& unit);
 

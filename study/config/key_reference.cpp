@@ -67,14 +67,6 @@ std::string unit_text(const KeyRow& row) {
   return fmt::format("{}", fmt::join(unit_alternatives(row.unit), " or "));
 }
 
-std::string range_column(const Range& range) {
-  if (range.is_everything()) return {};
-  if (range.low == range.high) return fmt::format("{}", range.low);
-  if (std::isinf(range.high)) return fmt::format("{} {}", range.low_is_out ? ">" : ">=", range.low);
-  return fmt::format("{}{}, {}{}", range.low_is_out ? "(" : "[", range.low, range.high,
-                     range.high_is_out ? ")" : "]");
-}
-
 std::string condition_text(const KeyRow& row) {
   if (row.only.key.empty()) return {};
   return fmt::format(" ({} = {})", row.only.key, fmt::join(row.only.words, ", "));
@@ -107,7 +99,7 @@ std::string row_text(const KeyRow& row) {
   std::string text = fmt::format("{}\n    {}{}\n    type: {}", row.path, row.meaning,
                                  condition_text(row), type_text(row));
   if (!row.unit.empty()) text += "; unit: " + unit_text(row);
-  if (!row.range.is_everything()) text += "; range: " + range_column(row.range);
+  if (!row.range.is_everything()) text += "; range: " + range_symbol(row.range);
   if (row.required) text += "; " + need_text(row);
   if (!row.standard.empty()) text += "; default: " + row.standard;
   return text + "\n";
@@ -172,7 +164,7 @@ std::string key_reference_markdown() {
       if (row.type == KeyType::planned) continue;
       const bool is_value = !row.standard.empty();
       text += fmt::format("| `{}` | {} | {} | {} | {} | {}{} |\n", row.path,
-                          escaped(type_text(row)), unit_text(row), range_column(row.range),
+                          escaped(type_text(row)), unit_text(row), range_symbol(row.range),
                           is_value ? code(need_text(row)) : need_text(row), escaped(row.meaning),
                           escaped(condition_text(row)));
     }

@@ -155,8 +155,11 @@ std::optional<Tree> parse_toml(std::string_view text, const std::string& file,
   if (!require_utf8(text, shared, diagnostics)) return std::nullopt;
   try {
     const toml::table table = toml::parse(text);
-    Tree tree = Converter(shared, diagnostics).convert(table);
+    Diagnostics found;
+    Tree tree = Converter(shared, found).convert(table);
     tree.at = {shared, 1, 1};
+    diagnostics.append(found);
+    if (!found.empty()) return std::nullopt;
     return tree;
   } catch (const toml::parse_error& error) {
     diagnostics.add(at(shared, error.source()), fmt::format("not TOML: {}", error.description()),

@@ -21,7 +21,8 @@ std::string quoted(const std::string& text) {
       result += c;
     }
   }
-  return result + "\"";
+  result += '"';
+  return result;
 }
 
 std::string key_text(const std::string& key) {
@@ -49,9 +50,9 @@ std::string inline_text(const Tree& tree) {
     case Tree::Kind::number:
       return number_text(tree.number);
     case Tree::Kind::array:
-      return "[" + joined_items(tree) + "]";
+      return fmt::format("[{}]", joined_items(tree));
     case Tree::Kind::table:
-      return tree.items.empty() ? "{}" : "{ " + joined_items(tree) + " }";
+      return tree.items.empty() ? "{}" : fmt::format("{{ {} }}", joined_items(tree));
     case Tree::Kind::text:
     case Tree::Kind::invalid:
       break;

@@ -1,5 +1,7 @@
 #include "study/config/unit.h"
 
+#include <fmt/format.h>
+
 #include <charconv>
 #include <cmath>
 #include <numbers>
@@ -72,7 +74,7 @@ class UnitParser {
 
   std::optional<Unit> run() {
     std::optional<Unit> unit = product(0);
-    if (unit && at_ < text_.size()) unit = fail("'" + std::string(text_.substr(at_)) + "'");
+    if (unit && at_ < text_.size()) unit = fail(fmt::format("'{}'", text_.substr(at_)));
     return unit;
   }
   const std::string& fault() const { return fault_; }
@@ -119,7 +121,7 @@ class UnitParser {
     const std::optional<Unit> base = accept("(") ? bracket(depth) : symbol();
     if (!base) return std::nullopt;
     const std::optional<int> exponent = power();
-    if (!exponent) return fail("the power in '" + std::string(text_) + "'");
+    if (!exponent) return fail(fmt::format("the power in '{}'", text_));
     return combine(Unit{}, *base, *exponent);
   }
 
@@ -145,7 +147,7 @@ class UnitParser {
     while (at_ < text_.size() && !ends(text_.substr(at_))) ++at_;
     const std::string_view name = text_.substr(start, at_ - start);
     std::optional<Unit> unit = find_symbol(name);
-    if (!unit) return fail("'" + std::string(name) + "'");
+    if (!unit) return fail(fmt::format("'{}'", name));
     return unit;
   }
 

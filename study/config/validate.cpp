@@ -266,13 +266,14 @@ class Validator {
   }
 
   void check_number(Tree& value, const KeyRow& row, const Scope& scope) {
-    // The subject is made only for a report: nearly all numbers are right.
-    Tree copy = value;
-    Diagnostics trial;
-    if (validate_number(copy, row, {}, trial)) {
-      value = std::move(copy);
-    } else if (value.is_valid()) {
+    // The subject is made only where it may be reported: nearly all numbers are right.
+    const bool is_right = value.is_numeric() && std::isfinite(value.as_number()) &&
+                          row.range.contains(value.as_number());
+    if (!is_right) {
       validate_number(value, row, subject_of(scope), diagnostics_);
+    } else if (value.is(Kind::integer)) {
+      value.number = value.as_number();
+      value.kind = Kind::number;
     }
   }
 
@@ -440,11 +441,10 @@ bool validate_number(Tree& value, const KeyRow& row, const std::string& subject,
   }
   if (row.range.contains(value.number)) return true;
   std::string unit = value.text.empty() ? row.unit : value.text;
-  if (unit.find('|') != std::string::npos) unit.clear();
-  diagnostics.add(value.at,
-                  fmt::format("{} {}, got {}{}", subject, range_text(row.range), shown(value),
-                              unit.empty() ? "" : " " + unit),
-                  row.meaning);
+  unit = unit.empty() || unit.find('|') != std::string::npos ? std::string() : " " + unit;
+  diagnostics.add(
+      value.at, fmt::format("{} {}, got {}{}", subject, range_text(row.range), shown(value), unit),
+      fmt::format("{}: a number {}{}", row.meaning, range_symbol(row.range), unit));
   value.kind = Kind::invalid;
   return false;
 }

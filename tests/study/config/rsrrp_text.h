@@ -1,0 +1,26 @@
+// The reference linkage R1 as a model file, and ways to damage it.
+#pragma once
+
+#include <fstream>
+#include <string>
+
+#include "study/config/model_document.h"
+
+namespace linkstudy::test {
+
+// Link masses and inertias as in the reference set, closure S as a cut joint with an sde beside it.
+extern const std::string kRsrrp;
+
+// The text with one occurrence replaced; throws when `from` does not occur exactly once.
+std::string replaced(std::string text, const std::string& from, const std::string& to);
+
+// A file in the test's scratch folder.
+std::string write_file(const std::string& name, const std::string& text);
+
+// Reads, sets and checks a model text as "model.toml".
+std::optional<ModelInput> read_text(const std::string& text, Diagnostics& diagnostics,
+                                    std::span<const Override> overrides = {});
+
+Override set(const std::string& assignment);
+
+}  // namespace linkstudy::test
