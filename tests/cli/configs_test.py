@@ -1,0 +1,82 @@
+#!/usr/bin/env python3
+"""Every file in configs/ is right, runs (shortened), and is described.
+
+usage: configs_test.py LINKSTUDY TREE [options of unittest]
+"""
+
+import subprocess
+import sys
+import tempfile
+import tomllib
+import unittest
+from pathlib import Path
+
+END = 0.05  # s
+LINKSTUDY = ""
+TREE = Path()
+
+
+def run(*arguments):
+    command = [LINKSTUDY, *map(str, arguments)]
+    return subprocess.run(command, capture_output=True, text=True, stdin=subprocess.DEVNULL)
+
+
+def files_in(folder):
+    return sorted((TREE / "configs" / folder).glob("*.toml"))
+
+
+def shortened(path):
+    """Options that run a study over END instead of its own time."""
+    options = ["-s", f"simulation.end_time={END}"]
+    for position, _ in enumerate(tomllib.loads(path.read_text()).get("match", [])):
+        options += ["-s", f"match.{position}.window=[{END / 5}, {END}]"]
+    return options
+
+
+class Configs(unittest.TestCase):
+    def test_there_are_mechanisms_and_studies(self):
+        self.assertGreaterEqual(len(files_in("mechanisms")), 6)
+        self.assertGreaterEqual(len(files_in("studies")), 5)
+
+    def test_every_file_is_right(self):
+        done = run("check", *files_in("mechanisms"), *files_in("studies"))
+        self.assertEqual((0, ""), (done.returncode, done.stderr))
+
+    def test_every_file_opens_with_what_to_look_at_and_how_to_run_it(self):
+        for path in files_in("mechanisms") + files_in("studies"):
+            head = path.read_text().split("\n\n")[0]
+            for words in ("Source:", "Look at:", "linkstudy ", f"{path.parent.name}/{path.name}"):
+                self.assertIn(words, head, path.name)
+
+    def test_every_mechanism_runs_with_every_closure_model(self):
+        for path in files_in("mechanisms"):
+            closures = tomllib.loads(path.read_text()).get("closure", [])
+            for model in ("cut", "sde") if closures else ("",):
+                options = [text for closure in closures
+                           for text in ("-s", f"closure.{closure['name']}.model={model}")]
+                with self.subTest(file=path.name, model=model):
+                    done = run("simulate", path, "-s", f"simulation.end_time={END}", *options)
+                    self.assertEqual(0, done.returncode, done.stderr)
+
+    def test_every_study_runs(self):
+        for path in files_in("studies"):
+            kind = tomllib.loads(path.read_text())["kind"]
+            search = ["-s", "search.scan=4", "-s", "search.max_evaluations=12"]
+            with self.subTest(file=path.name), tempfile.TemporaryDirectory() as folder:
+                done = run(kind, path, "-o", f"{folder}/results", *shortened(path),
+                           *(search if kind == "tune" else []))
+                # So short a run need not hold what is tuned for: 4, nothing feasible.
+                self.assertIn(done.returncode, (0, 4) if kind == "tune" else (0,), done.stderr)
+                self.assertTrue(Path(folder, "results", "results.h5").exists())
+
+    def test_the_readme_is_the_key_reference(self):
+        done = run("describe", "--markdown")
+        self.assertEqual(0, done.returncode, done.stderr)
+        readme = (TREE / "configs" / "README.md").read_text()
+        self.assertTrue(done.stdout == readme,
+                        "not up to date: linkstudy describe --markdown > configs/README.md")
+
+
+if __name__ == "__main__":
+    LINKSTUDY, TREE = sys.argv[1], Path(sys.argv[2])
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])

@@ -1,0 +1,262 @@
+#!/usr/bin/env python3
+"""Holds the rules of the tree: layer order, sizes, names, one library a folder.
+
+usage: tidy.py TREE        prints PLACE: what is wrong, one a line; exit 1 when there is any
+"""
+
+import ast
+import fnmatch
+import os
+import re
+import sys
+from pathlib import Path
+
+# Layers, top to bottom: a file includes only its own folder and folders above it.
+CORE = """base numerics spatial laws topology flexible model kinematics forces closures dynamics
+          simulation""".split()
+STUDY = "record config design metrics evaluate schedule tune converge store report cli".split()
+LAYERS = [f"core/{name}" for name in CORE] + [f"study/{name}" for name in STUDY]
+
+# Headers of a library, and the only places of core/ and study/ that include them.
+LIBRARIES = [
+    (r"toml(\+\+|plusplus)?[./]", ["study/config/"]),
+    (r"mpi\.h$", ["study/schedule/", "study/cli/main.cpp"]),
+    (r"(hdf5\w*|H5\w*)\.h$", ["study/store/"]),
+    (r"nlopt\.", ["study/tune/"]),
+    (r"boost/numeric/odeint", ["core/numerics/"]),
+    (r"boost/program_options", ["study/cli/"]),
+    (r"spdlog/", ["study/cli/"]),
+    (r"openssl/", ["study/record/"]),
+    (r"(\w*intrin\.h|experimental/simd)$", ["core/base/"]),
+    (r"(fstream|filesystem|iostream|fmt/.*)$", ["study/"]),  # core/ is silent and has no files
+]
+
+TOP_LEVEL = {"CMakeLists.txt", "core", "study", "configs", "jobs", "tests", "README.md",
+             ".ci", ".clang-format", ".clang-tidy", ".gitignore"}
+LINE_WIDTH = 100
+FUNCTION_LINES = 70
+FILE_LINES = 500
+CODE = {".h", ".cpp", ".py", ".sh"}
+TEXT = CODE | {".toml", ".txt", ".md", ".sbatch", ""}
+NAMES = re.compile(r"[a-z0-9_]+(\.[a-z0-9_]+)*$")
+OTHER_NAMES = {"README.md", "CMakeLists.txt"}
+
+# In parts, so that this file does not find itself.
+MARKS = re.compile(r"\b(" + "|".join(["TO" + "DO", "FIX" + "ME", "XX" + "X", "HA" + "CK"]) + r")\b"
+                   + r"|^(<{7}|>{7}|={7})( |$)")
+FOLDERS = ["home", "root", "work", "mnt", "media", "Users", "scratch"]
+MACHINE_PATH = re.compile(r"(?<![\w./})\]*])/(" + "|".join(FOLDERS) + r")/")
+
+
+def find_files(tree):
+    """Every file of the tree as a path relative to it, without what .gitignore leaves out."""
+    ignored = [".git"]
+    if (tree / ".gitignore").exists():
+        ignored += [line.rstrip("/") for line in (tree / ".gitignore").read_text().split()]
+
+    def is_kept(name):
+        return not any(fnmatch.fnmatch(name, pattern) for pattern in ignored)
+
+    for folder, folders, names in os.walk(tree):
+        folders[:] = sorted(name for name in folders if is_kept(name))
+        for name in sorted(filter(is_kept, names)):
+            yield (Path(folder) / name).relative_to(tree)
+
+
+def layer_of(path):
+    """Rank of the layer a file of core/ or study/ belongs to; None for a folder of no layer."""
+    folder = "/".join(Path(path).parts[:2])
+    return LAYERS.index(folder) if folder in LAYERS else None
+
+
+def includes_of(text):
+    """(line number, path, whether in quotes) of every include."""
+    for number, line in enumerate(text.splitlines(), 1):
+        found = re.match(r'\s*#\s*include\s*([<"])([^>"]+)[>"]', line)
+        if found:
+            yield number, found[2], found[1] == '"'
+
+
+def check_layers(path, text):
+    if path.parts[0] not in ("core", "study") or path.suffix not in (".h", ".cpp"):
+        return
+    own = layer_of(path)
+    if own is None:
+        yield 1, f"'{path.parent}' is no layer of the architecture"
+        return
+    for number, included, is_ours in includes_of(text):
+        other = layer_of(included)
+        if is_ours and other is None:
+            yield number, f"include by the path from the top of the tree, got '{included}'"
+        elif is_ours and other > own:
+            yield number, f"'{LAYERS[own]}' includes '{included}', which is below it"
+
+
+def check_libraries(path, text):
+    if path.parts[0] not in ("core", "study"):
+        return
+    for number, included, is_ours in includes_of(text):
+        for pattern, places in LIBRARIES:
+            at_home = any(path.as_posix().startswith(place) for place in places)
+            if not is_ours and re.match(pattern, included) and not at_home:
+                yield number, f"<{included}> belongs in {' and '.join(places)} only"
+
+
+def check_silence(path, text):
+    if path.parts[0] != "core":
+        return
+    for number, line in enumerate(text.splitlines(), 1):
+        if re.search(r"\b(f?printf|f?puts|fopen)\s*\(|\bstd::(cout|cerr|clog)\b", line):
+            yield number, "core/ prints nothing and opens no files"
+
+
+def check_header(path, text):
+    if path.suffix != ".h":
+        return
+    if not text.startswith("//"):
+        yield 1, "a header opens with what it computes"
+    if "\n#pragma once\n" not in text:
+        yield 1, "a header has #pragma once"
+
+
+def check_lines(path, text):
+    lines = text.splitlines()
+    for number, line in enumerate(lines, 1):
+        if len(line) > LINE_WIDTH and path.suffix != ".md":
+            yield number, f"line of {len(line)} characters, at most {LINE_WIDTH}"
+        if MARKS.search(line):
+            yield number, "mark left over"
+        if MACHINE_PATH.search(line):
+            yield number, "absolute path of a machine"
+    if len(lines) > FILE_LINES and path.suffix in CODE:
+        yield FILE_LINES, f"file of {len(lines)} lines, at most {FILE_LINES}"
+
+
+def blank(match):
+    return re.sub(r"[^\n]", " ", match[0])
+
+
+TOKENS = re.compile(r'//[^\n]*|/\*.*?\*/|R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"'
+                    r"|(?<![0-9a-fA-F])'(?:\\.|[^'\\\n])+'"
+                    r"|^[ \t]*#(?:\\\n|[^\n])*", re.DOTALL | re.MULTILINE)
+SCOPE = re.compile(r"\b(namespace|class|struct|union|enum|extern)\b")
+ACCESS = re.compile(r"\s*(public|private|protected)\s*:(?!:)")
+
+
+def kind_of_brace(head):
+    """What a brace opens, by the declaration before it; a blank stands before a body."""
+    if re.search(r"(=\s*|[\w>\])}])$", head):
+        return "initialiser"
+    head = re.sub(r"^\s*template\s*<[^{}]*>\s*(?=(class|struct|union)\b)", "", head)
+    if SCOPE.search(head) and "(" not in head:
+        return "scope"
+    return "function" if "(" in head else "other"
+
+
+def functions_of(text):
+    """(first line, last line) of every function of C++ text; lambdas count with theirs."""
+    text = TOKENS.sub(blank, text)
+    braces = []  # of every open one: (kind, line where its declaration begins)
+    start = 0    # where the declaration under way begins
+    for at, char in enumerate(text):
+        outside = all(kind == "scope" for kind, _ in braces)
+        if char == "{":
+            access = ACCESS.match(text, start, at)
+            begin = access.end() if access and outside else start
+            head = text[begin:at]
+            kind = kind_of_brace(head) if outside else "other"
+            begin += len(head) - len(head.lstrip())
+            braces.append((kind, text.count("\n", 0, begin) + 1))
+        elif char == "}" and braces:
+            kind, line = braces.pop()
+            if kind == "function":
+                yield line, text.count("\n", 0, at) + 1
+            if kind == "initialiser":
+                continue
+        if char in ";{}" and all(kind == "scope" for kind, _ in braces):
+            start = at + 1
+
+
+def python_functions_of(text):
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef)):
+            yield node.lineno, node.end_lineno
+
+
+def check_functions(path, text):
+    find = {".cpp": functions_of, ".h": functions_of, ".py": python_functions_of}
+    if path.suffix not in find:
+        return
+    for first, last in find[path.suffix](text):
+        if last - first + 1 > FUNCTION_LINES:
+            yield first, f"function of {last - first + 1} lines, at most {FUNCTION_LINES}"
+
+
+def check_name(path):
+    for part in path.parts:
+        if part not in OTHER_NAMES and not part.startswith(".") and not NAMES.match(part):
+            yield 0, f"'{part}' is not snake_case"
+    if path.parts[0] not in TOP_LEVEL:
+        yield 0, f"'{path.parts[0]}' does not belong at the top"
+
+
+def find_cycle(includes):
+    """Headers that include each other, as a list that ends where it starts; empty when none do."""
+    done, trail = set(), []
+
+    def visit(path):
+        if path in trail:
+            return trail[trail.index(path):] + [path]
+        if path in done:
+            return []
+        trail.append(path)
+        cycle = next(filter(None, map(visit, includes.get(path, []))), [])
+        trail.pop()
+        done.add(path)
+        return cycle
+
+    return next(filter(None, map(visit, includes)), [])
+
+
+def check_layer_list(tree):
+    """The build links the folders in the order this check holds."""
+    build = "".join((tree / top / "CMakeLists.txt").read_text()
+                    for top in ("core", "study") if (tree / top / "CMakeLists.txt").exists())
+    for top, folders in (("core", CORE), ("study", STUDY)):
+        found = re.search(rf"linkstudy_layers\({top} \S+([^)]*)\)", build)
+        if found and found[1].split() != folders:
+            yield f"{top}/CMakeLists.txt", 0, "its layers are not those of tests/tidy/tidy.py"
+
+
+CHECKS = [check_layers, check_libraries, check_silence, check_header, check_lines, check_functions]
+
+
+def check_tree(tree):
+    """Everything wrong in a tree: (path, line, message); line 0 means the whole file."""
+    includes = {}
+    yield from check_layer_list(tree)
+    for path in find_files(tree):
+        yield from ((path, *problem) for problem in check_name(path))
+        if path.suffix not in TEXT:
+            continue
+        text = (tree / path).read_text(encoding="utf-8")
+        if path.suffix == ".h":
+            includes[path.as_posix()] = [name for _, name, ours in includes_of(text) if ours]
+        for check in CHECKS:
+            yield from ((path, *problem) for problem in check(path, text))
+    cycle = find_cycle(includes)
+    if cycle:
+        yield cycle[0], 0, "headers include each other: " + " -> ".join(cycle)
+
+
+def main():
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    problems = list(check_tree(Path(sys.argv[1])))
+    for path, line, message in problems:
+        print(f"{path}:{line}: {message}" if line else f"{path}: {message}")
+    sys.exit(1 if problems else 0)
+
+
+if __name__ == "__main__":
+    main()
