@@ -188,7 +188,7 @@ TEST(Reference, The_markdown_has_a_row_for_every_key_and_six_columns) {
   }
 }
 
-TEST(Reference, Every_default_passes_its_own_row) {
+TEST(Reference, Every_row_has_a_meaning_and_no_required_key_a_default) {
   for (const auto* rows : {&model_rows(), &study_rows(), &tune_rows()}) {
     for (const KeyRow& row : *rows) {
       EXPECT_FALSE(row.meaning.empty()) << row.path;

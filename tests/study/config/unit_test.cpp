@@ -11,7 +11,7 @@ namespace linkstudy {
 namespace {
 
 double in(const std::string& text, const std::string& unit) {
-  const std::optional<Quantity> quantity = split_quantity(text);
+  const std::optional<WrittenQuantity> quantity = split_quantity(text);
   if (!quantity) return std::nan("");
   const std::optional<Unit> from = parse_unit(quantity->unit), to = parse_unit(unit);
   if (!from || !to) return std::nan("");
