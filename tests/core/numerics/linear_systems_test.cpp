@@ -1,0 +1,191 @@
+// Factorisations of the step loop against Eigen's dense ones.
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <vector>
+
+#include "core/numerics/branch_sparse.h"
+#include "core/numerics/rank.h"
+#include "core/numerics/semidefinite.h"
+#include "tests/support/near.h"
+#include "tests/support/random.h"
+
+namespace linkstudy::testing {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+struct SparseCase {
+  int n;
+  std::vector<int> parent;
+  MatrixXd h;
+};
+
+// Sum over nodes of w w^T with w on the path to the root: the sparsity of a mass matrix.
+SparseCase random_tree_matrix(std::uint64_t seed) {
+  Random random(seed);
+  SparseCase c{1 + random.below(14), {}, {}};
+  c.h = MatrixXd::Zero(c.n, c.n);
+  for (int k = 0; k < c.n; ++k) c.parent.push_back(random.below(k + 1) - 1);
+  for (int k = 0; k < c.n; ++k) {
+    for (int copy = 0; copy < 3; ++copy) {
+      VectorXd w = VectorXd::Zero(c.n);
+      for (int i = k; i >= 0; i = c.parent[static_cast<std::size_t>(i)]) w[i] = random.within(1.0);
+      c.h += w * w.transpose();
+    }
+    c.h(k, k) += 0.1;
+  }
+  return c;
+}
+
+double condition(const MatrixXd& a) {
+  const VectorXd s = a.jacobiSvd().singularValues();
+  return s[0] / s[s.size() - 1];
+}
+
+// Rows drawn at random, some of them sums of others: J J^T has the rank of J.
+MatrixXd random_rows(Random& random, int rows, int columns, int rank) {
+  return random.matrix(rows, rank, 1.0) * random.matrix(rank, columns, 1.0);
+}
+
+struct Solved {
+  bool dropped;
+  VectorXd x;
+  long kept;
+};
+
+Solved solve_semidefinite(const MatrixXd& a, const VectorXd& b) {
+  const auto n = static_cast<int>(a.rows());
+  RowMajor l = a, gram = RowMajor::Zero(n, n);
+  l.triangularView<Eigen::StrictlyUpper>().setConstant(1e99);  // never read
+  VectorXd inverse(n), scratch = VectorXd::Zero(2 * n);
+  Solved s{false, b, 0};
+  s.dropped = factorize_semidefinite(n, 1e-10, l.data(), inverse.data());
+  s.kept = (inverse.array() > 0.0).count();
+  if (s.dropped) {
+    solve_least_norm(n, l.data(), inverse.data(), gram.data(), scratch.data(), s.x.data());
+  } else {
+    solve_definite(n, l.data(), inverse.data(), s.x.data());
+  }
+  return s;
+}
+
+MatrixXd pseudo_inverse(const MatrixXd& a) {
+  Eigen::JacobiSVD<MatrixXd> svd(a, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  VectorXd s = svd.singularValues();
+  for (double& x : s) x = x > 1e-10 * svd.singularValues()[0] ? 1.0 / x : 0.0;
+  return svd.matrixV() * s.asDiagonal() * svd.matrixU().transpose();
+}
+
+}  // namespace
+
+TEST(BranchSparse, The_factor_multiplies_back_to_the_matrix_without_fill_in) {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    const SparseCase c = random_tree_matrix(seed);
+    RowMajor factor = c.h;
+    factor.triangularView<Eigen::StrictlyUpper>().setConstant(1e99);  // never read
+    VectorXd inverse_pivot(c.n);
+    factorize_branch_sparse(c.n, c.parent.data(), factor.data(), inverse_pivot.data());
+    MatrixXd l = MatrixXd::Identity(c.n, c.n);
+    for (int k = 0; k < c.n; ++k) {
+      for (int i = c.parent[static_cast<std::size_t>(k)]; i >= 0;
+           i = c.parent[static_cast<std::size_t>(i)]) {
+        l(k, i) = factor(k, i);
+      }
+    }
+    const MatrixXd d = inverse_pivot.cwiseInverse().asDiagonal();
+    // A factorisation is backward stable: a few roundings of the largest entry.
+    ASSERT_TRUE(near_relative(l.transpose() * d * l, c.h, 1e-14)) << "seed " << seed;
+  }
+}
+
+TEST(BranchSparse, Solutions_are_those_of_a_dense_Cholesky_factorisation) {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    const SparseCase c = random_tree_matrix(seed);
+    RowMajor factor = c.h;
+    VectorXd inverse_pivot(c.n);
+    const VectorXd b = Random(seed + 1000).vector(c.n, 1.0);
+    VectorXd x = b;
+    factorize_branch_sparse(c.n, c.parent.data(), factor.data(), inverse_pivot.data());
+    solve_branch_transposed(c.n, c.parent.data(), factor.data(), x.data());
+    x = x.cwiseProduct(inverse_pivot);
+    solve_branch(c.n, c.parent.data(), factor.data(), x.data());
+    ASSERT_TRUE(near_relative(x, c.h.llt().solve(b), 1e-14 * condition(c.h))) << "seed " << seed;
+  }
+}
+
+TEST(Semidefinite, Independent_rows_are_all_kept_and_solved_as_by_a_dense_factorisation) {
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    Random random(seed);
+    const int n = 1 + random.below(6);
+    const MatrixXd j = random.matrix(n, n + 3, 1.0);
+    const MatrixXd a = j * j.transpose();
+    const VectorXd b = random.vector(n, 1.0);
+    const Solved s = solve_semidefinite(a, b);
+    ASSERT_FALSE(s.dropped) << "seed " << seed;
+    ASSERT_EQ(s.kept, n);
+    ASSERT_TRUE(near_relative(s.x, a.llt().solve(b), 1e-14 * condition(a))) << "seed " << seed;
+  }
+}
+
+TEST(Semidefinite, Dependent_rows_get_the_solution_of_the_pseudo_inverse) {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    Random random(seed);
+    const int rank = 1 + random.below(4);
+    const int n = rank + 1 + random.below(3);
+    const MatrixXd j = random_rows(random, n, n + 2, rank);
+    const MatrixXd a = j * j.transpose();
+    const VectorXd b = a * random.vector(n, 1.0);  // in the range, as constraints are
+    const Solved s = solve_semidefinite(a, b);
+    ASSERT_TRUE(s.dropped) << "seed " << seed;
+    ASSERT_EQ(s.kept, rank) << "seed " << seed;
+    // Conditions of the Gram matrix enter squared; drawn ones stay below 1e5.
+    ASSERT_TRUE(near_relative(s.x, pseudo_inverse(a) * b, 1e-7)) << "seed " << seed;
+    ASSERT_TRUE(near_relative(a * s.x, b, 1e-9)) << "seed " << seed;
+  }
+}
+
+TEST(Semidefinite, A_row_out_of_range_is_met_in_least_squares) {
+  MatrixXd a(2, 2);
+  a << 1, 1, 1, 1;
+  const Solved s = solve_semidefinite(a, Eigen::Vector2d(3.0, 1.0));
+  EXPECT_TRUE(s.dropped);
+  EXPECT_TRUE(near_absolute(s.x, Eigen::Vector2d(1.0, 1.0), 1e-15));
+}
+
+TEST(Semidefinite, Three_equal_rows_share_the_multiplier) {
+  const MatrixXd a = MatrixXd::Constant(3, 3, 2.0);
+  const Solved s = solve_semidefinite(a, Eigen::Vector3d(6, 6, 6));
+  EXPECT_EQ(s.kept, 1);
+  EXPECT_TRUE(near_absolute(s.x, Eigen::Vector3d(1, 1, 1), 1e-14));
+}
+
+TEST(Rank, A_product_of_thin_factors_has_their_width_and_a_clear_gap) {
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    Random random(seed);
+    const int rank = 1 + random.below(5);
+    const MatrixXd a = random_rows(random, 7, 9, rank);
+    const NumericalRank r = numerical_rank(a, 1e-9);
+    EXPECT_EQ(r.rank, rank) << "seed " << seed;
+    const VectorXd s = a.jacobiSvd().singularValues();
+    EXPECT_NEAR(r.smallest_kept, s[rank - 1] / s[0], 1e-12);
+    EXPECT_LT(r.largest_dropped, 1e-13);
+  }
+}
+
+TEST(Rank, The_tolerance_decides_and_both_sides_of_the_gap_are_reported) {
+  const MatrixXd a = Eigen::Vector3d(2.0, 2e-4, 2e-8).asDiagonal();
+  const NumericalRank loose = numerical_rank(a, 1e-3), tight = numerical_rank(a, 1e-6);
+  EXPECT_EQ(loose.rank, 1);
+  EXPECT_NEAR(loose.largest_dropped, 1e-4, 1e-16);
+  EXPECT_EQ(tight.rank, 2);
+  EXPECT_NEAR(tight.smallest_kept, 1e-4, 1e-16);
+  EXPECT_NEAR(tight.largest_dropped, 1e-8, 1e-20);
+  EXPECT_EQ(numerical_rank(MatrixXd::Zero(2, 3), 1e-9).rank, 0);
+  EXPECT_EQ(numerical_rank(MatrixXd(0, 3), 1e-9).rank, 0);
+}
+
+}  // namespace linkstudy::testing
