@@ -1,7 +1,8 @@
 // The arithmetic that the step loop is written in. Every kernel is a template on Real; Real is
 // `double` here, and any type that offers the same free functions and comparison results (a mask
 // accepted by `select` and `any`) may take its place: a pack of SIMD lanes, one case a lane.
-//   madd(a, b, c) = a b + c      select(mask, a, b) = mask ? a : b, lane by lane
+//   madd(a, b, c) = a b + c      msub(a, b, c) = a b - c      nmadd(a, b, c) = c - a b
+//   select(mask, a, b) = mask ? a : b, lane by lane
 // Branches on values are written with select; branches on structure are ordinary ifs.
 #pragma once
 
@@ -20,6 +21,12 @@ struct RealTraits<double> {
 
 inline double madd(double a, double b, double c) {
   return a * b + c;
+}
+inline double msub(double a, double b, double c) {
+  return a * b - c;
+}
+inline double nmadd(double a, double b, double c) {
+  return c - a * b;
 }
 inline double select(bool mask, double a, double b) {
   return mask ? a : b;

@@ -4,8 +4,10 @@
 // With M = L^T D L and Y = L^-T J^T the Schur complement is A = Y^T D^-1 Y, and
 //   A lambda = Y^T D^-1 (L^-T tau) + bias - s.
 // lambda_r is the closure force of row r on chain 1 (N or N m). Redundant rows get the multipliers
-// of least norm; Workspace::kept tells them.
+// of least norm; Workspace::row_inverse tells them.
 #pragma once
+
+#include <type_traits>
 
 #include "core/kinematics/closure_jacobian.h"
 #include "core/numerics/branch_sparse.h"
@@ -17,21 +19,25 @@ namespace linkstudy {
 // differ by less than 1e-5 in direction.
 inline constexpr double kDependentRow = 1e-10;
 
-// Rows of J for the three ground axes at once: the velocity of the point by each velocity.
+// Rows of J of one closure, zero off its support.
 template <class Real>
-inline void add_point_rates(const Mechanism& m, const Parameters<Real>& p, const Workspace<Real>& w,
-                            int last, const Vec3<Real>& point, Real sign, Real* j) {
-  for (int k = last; k >= 0; k = m.v_parent[static_cast<std::size_t>(k)]) {
-    const auto i = static_cast<std::size_t>(k);
-    Vec3<Real> e = w.axes[i];
-    if (m.v_rotates[i]) {
-      const Vec3<Real> turned = cross(e, point - w.bodies[static_cast<std::size_t>(m.v_body[i])].p);
-      e = m.v_screw[i] < 0 ? turned
-                           : madd(p.pitch[static_cast<std::size_t>(m.v_screw[i])], e, turned);
-    }
-    j[k] = madd(sign, e.x, j[k]);
-    j[m.nv + k] = madd(sign, e.y, j[m.nv + k]);
-    j[2 * m.nv + k] = madd(sign, e.z, j[2 * m.nv + k]);
+inline void update_closure_jacobian(const Mechanism& m, const Parameters<Real>& p,
+                                    const Workspace<Real>& w, std::size_t closure, Real* j) {
+  const ClosureStructure& c = m.closures[closure];
+  const int nv = m.nv;
+  const int rows = c.row_end - c.row_begin;
+  for (int n = 0; n < rows; ++n) {
+    for (int k : c.support) j[n * nv + k] = Real(0.0);
+  }
+  int n = 0;
+  if (c.point_rows) {
+    add_point_rates(m, p, w, c.last_1, w.closures[closure].p1, true, j);
+    add_point_rates(m, p, w, c.last_2, w.closures[closure].p2, false, j);
+    n = 3;
+  }
+  for (; n < rows; ++n) {
+    const auto r = static_cast<std::size_t>(c.row_begin + n);
+    add_row_rates(m, p, w, m.cut_rows[r], w.cut_rows[r], j + n * nv);
   }
 }
 
@@ -40,66 +46,72 @@ template <class Real>
 inline void update_constraint_factor(const Mechanism& m, const Parameters<Real>& p,
                                      Workspace<Real>& w) {
   const Real* h = w.mass.data();
+  const int* parent = m.v_parent.data();
   const int nv = m.nv;
   for (std::size_t i = 0; i < m.closures.size(); ++i) {
     const ClosureStructure& c = m.closures[i];
     if (c.model != ClosureModel::cut) continue;
     Real* y = w.cut_y.data() + c.row_begin * nv;
-    for (int r = c.row_begin; r < c.row_end; ++r) {
-      for (int k : c.support) y[(r - c.row_begin) * nv + k] = Real(0.0);
-    }
-    int r = c.row_begin;
-    if (c.point_rows) {
-      add_point_rates(m, p, w, c.last_1, w.closures[i].p1, Real(-1.0), y);
-      add_point_rates(m, p, w, c.last_2, w.closures[i].p2, Real(1.0), y);
-      r += 3;
-    }
-    for (; r < c.row_end; ++r) {
-      const auto row = static_cast<std::size_t>(r);
-      add_row_rates(m, p, w, m.cut_rows[row], w.cut_rows[row], w.cut_y.data() + r * nv);
-    }
+    update_closure_jacobian(m, p, w, i, y);
     const int rows = c.row_end - c.row_begin;
     for (int k : c.support) {
-      for (int a = m.v_parent[static_cast<std::size_t>(k)]; a >= 0;
-           a = m.v_parent[static_cast<std::size_t>(a)]) {
-        const Real l = -h[k * nv + a];
-        for (int n = 0; n < rows; ++n) y[n * nv + a] = madd(l, y[n * nv + k], y[n * nv + a]);
+      for (int a = parent[k]; a >= 0; a = parent[a]) {
+        const Real l = h[k * nv + a];
+        for (int n = 0; n < rows; ++n) y[n * nv + a] = nmadd(l, y[n * nv + k], y[n * nv + a]);
       }
     }
   }
 }
 
-// A = Y^T D^-1 Y and its factor.
-template <class Real>
-inline void update_schur_complement(const Mechanism& m, Workspace<Real>& w) {
+// Calls f with the number of cut rows, as a constant for the commonest: one spherical joint.
+template <class F>
+inline void with_row_count(const Mechanism& m, F&& f) {
   const int nc = m.cut_row_count();
+  if (nc == 3) {
+    f(std::integral_constant<int, 3>());
+  } else {
+    f(nc);
+  }
+}
+
+// A = Y^T D^-1 Y, (nc, nc), summed over the velocities that reach some closure.
+template <class Size, class Real>
+inline void sum_schur_complement(Size nc, const Mechanism& m, Workspace<Real>& w) {
   const int nv = m.nv;
+  const Real* inverse_pivot = w.inverse_pivot.data();
+  const Real* y = w.cut_y.data();
+  Real* a = w.schur.data();
   for (int r = 0; r < nc; ++r) {
-    const Row& row = m.cut_rows[static_cast<std::size_t>(r)];
-    const ClosureStructure& c = m.closures[static_cast<std::size_t>(row.closure)];
-    const Real* y = w.cut_y.data() + r * nv;
+    const auto row = static_cast<std::size_t>(r);
+    const ClosureStructure& c = m.closures[static_cast<std::size_t>(m.cut_rows[row].closure)];
     for (int s = 0; s <= r; ++s) {
-      const Real* z = w.cut_y.data() + s * nv;
       Real sum(0.0);
-      for (int k : c.support) {
-        sum = madd(y[k] * w.inverse_pivot[static_cast<std::size_t>(k)], z[k], sum);
-      }
-      w.schur[static_cast<std::size_t>(r * nc + s)] = sum;
+      for (int k : c.support) sum = madd(y[r * nv + k] * inverse_pivot[k], y[s * nv + k], sum);
+      a[r * nc + s] = sum;
     }
   }
-  w.redundant = factorize_semidefinite(nc, Real(kDependentRow), w.schur.data(), w.kept.data());
+}
+
+template <class Real>
+inline void update_schur_complement(const Mechanism& m, Workspace<Real>& w) {
+  with_row_count(m, [&](auto nc) {
+    sum_schur_complement(nc, m, w);
+    w.redundant =
+        factorize_semidefinite(nc, Real(kDependentRow), w.schur.data(), w.row_inverse.data());
+  });
 }
 
 // schur_rhs := A^-1 schur_rhs
 template <class Real>
 inline void solve_schur(const Mechanism& m, Workspace<Real>& w) {
-  const int nc = m.cut_row_count();
   if (w.redundant) {
-    solve_least_norm(nc, w.schur.data(), w.kept.data(), w.gram.data(), w.scratch.data(),
-                     w.schur_rhs.data());
-  } else {
-    solve_cholesky(nc, w.schur.data(), w.schur_rhs.data());
+    solve_least_norm(m.cut_row_count(), w.schur.data(), w.row_inverse.data(), w.gram.data(),
+                     w.scratch.data(), w.schur_rhs.data());
+    return;
   }
+  with_row_count(m, [&](auto nc) {
+    solve_definite(nc, w.schur.data(), w.row_inverse.data(), w.schur_rhs.data());
+  });
 }
 
 // Y^T D^-1 x for row r
@@ -122,7 +134,7 @@ inline void subtract_constraint_forces(const Mechanism& m, const Workspace<Real>
     const ClosureStructure& c = m.closures[static_cast<std::size_t>(m.cut_rows[r].closure)];
     const Real* y = w.cut_y.data() + r * static_cast<std::size_t>(m.nv);
     const Real lambda = w.schur_rhs[r];
-    for (int k : c.support) x[k] = madd(Real(-lambda), y[k], x[k]);
+    for (int k : c.support) x[k] = nmadd(lambda, y[k], x[k]);
   }
 }
 

@@ -31,63 +31,78 @@ inline Wrench<Real> inertial_wrench(const Body& body, const BodyState<Real>& s) 
 
 template <class Real>
 inline void update_inertial_wrenches(const Mechanism& m, Workspace<Real>& w) {
-  for (std::size_t b = 1; b < m.bodies.size(); ++b) {
-    w.bodies[b].wrench = inertial_wrench(m.bodies[b], w.bodies[b]);
-  }
+  const Body* structure = m.bodies.data();
+  BodyState<Real>* bodies = w.bodies.data();
+  const int nb = m.body_count();
+  for (int b = 1; b < nb; ++b) bodies[b].wrench = inertial_wrench(structure[b], bodies[b]);
 }
 
-// Generalised force of a wrench on velocity k.
+// Generalised force of a wrench on a velocity with this axis.
 template <class Real>
-inline Real work_rate(const Mechanism& m, const Parameters<Real>& p, int k, const Vec3<Real>& axis,
+inline Real work_rate(const Velocity& k, const Real* pitch, const Vec3<Real>& axis,
                       const Wrench<Real>& w) {
-  const auto i = static_cast<std::size_t>(k);
-  if (m.v_screw[i] >= 0) {
-    return madd(p.pitch[static_cast<std::size_t>(m.v_screw[i])], dot(axis, w.force),
-                dot(axis, w.moment));
+  if (k.kind == VelocityKind::rotation) return dot(axis, w.moment);
+  if (k.kind == VelocityKind::translation) return dot(axis, w.force);
+  return madd(pitch[k.stage], dot(axis, w.force), dot(axis, w.moment));
+}
+
+template <class Real>
+inline const Inertia<Real>& composite_of(const Body& body, const BodyState<Real>& s) {
+  return body.carries ? s.composite : s.inertia;
+}
+
+// Adds what a body and all outboard need to its parent. A parent that cannot turn needs no moments.
+template <class Real>
+inline void pass_to_parent(const Body& body, const BodyState<Real>& s, bool parent_turns,
+                           BodyState<Real>& parent) {
+  const Inertia<Real>& composite = composite_of(body, s);
+  parent.wrench.force = parent.wrench.force + s.wrench.force;
+  if (!parent_turns) {
+    parent.composite.m = parent.composite.m + composite.m;
+    return;
   }
-  return dot(axis, m.v_rotates[i] ? w.moment : w.force);
+  parent.wrench.moment = parent.wrench.moment + s.wrench.moment;
+  if (body.shifted) {
+    parent.wrench.moment = parent.wrench.moment + cross(s.shift, s.wrench.force);
+    add_inertia(parent.composite, shift_inertia(composite, s.shift));
+  } else {
+    add_inertia(parent.composite, composite);
+  }
 }
 
 // Tips to ground: tau less bias, and composite inertias.
 template <class Real>
 inline void update_bias(const Mechanism& m, const Parameters<Real>& p, Workspace<Real>& w) {
+  const Body* structure = m.bodies.data();
+  const Velocity* velocities = m.velocities.data();
+  const Real* pitch = p.pitch.data();
+  const Vec3<Real>* axes = w.axes.data();
   BodyState<Real>* bodies = w.bodies.data();
+  Real* tau = w.tau.data();
   const int nb = m.body_count();
-  for (int b = 1; b < nb; ++b) bodies[b].composite = bodies[b].inertia;
+  for (int b = 1; b < nb; ++b) {
+    if (structure[b].carries) bodies[b].composite = bodies[b].inertia;
+  }
   for (int b = nb - 1; b > 0; --b) {
-    const Body& body = m.bodies[static_cast<std::size_t>(b)];
+    const Body& body = structure[b];
     const BodyState<Real>& s = bodies[b];
-    for (int k = body.v_begin; k < body.v_begin + body.v_count; ++k) {
-      const auto i = static_cast<std::size_t>(k);
-      w.tau[i] = w.tau[i] - work_rate(m, p, k, w.axes[i], s.wrench);
+    const int end = body.v_begin + body.v_count;
+    for (int k = body.v_begin; k < end; ++k) {
+      tau[k] = tau[k] - work_rate(velocities[k], pitch, axes[k], s.wrench);
     }
     if (body.parent == 0) continue;
-    BodyState<Real>& parent = bodies[body.parent];
-    const bool turns = m.bodies[static_cast<std::size_t>(body.parent)].rotates;
-    parent.wrench.force = parent.wrench.force + s.wrench.force;
-    if (!turns) {
-      parent.composite.m = parent.composite.m + s.composite.m;
-      continue;
-    }
-    parent.wrench.moment = parent.wrench.moment + s.wrench.moment;
-    if (body.shifted) {
-      parent.wrench.moment = parent.wrench.moment + cross(s.shift, s.wrench.force);
-      add_inertia(parent.composite, shift_inertia(s.composite, s.shift));
-    } else {
-      add_inertia(parent.composite, s.composite);
-    }
+    pass_to_parent(body, s, structure[body.parent].rotates, bodies[body.parent]);
   }
 }
 
-// Wrench that accelerates a composite by one unit of velocity k.
+// Wrench that accelerates a composite by one unit of a velocity.
 template <class Real>
-inline Wrench<Real> unit_wrench(const Mechanism& m, const Parameters<Real>& p, int k,
-                                const Vec3<Real>& axis, const Inertia<Real>& c) {
-  const auto i = static_cast<std::size_t>(k);
-  if (!m.v_rotates[i]) return {cross(c.h, axis), c.m * axis};
+inline Wrench<Real> unit_wrench(const Velocity& k, const Real* pitch, const Vec3<Real>& axis,
+                                const Inertia<Real>& c) {
+  if (k.kind == VelocityKind::translation) return {cross(c.h, axis), c.m * axis};
   Wrench<Real> w{c.i * axis, cross(axis, c.h)};
-  if (m.v_screw[i] >= 0) {
-    const Vec3<Real> advance = p.pitch[static_cast<std::size_t>(m.v_screw[i])] * axis;
+  if (k.kind == VelocityKind::screw) {
+    const Vec3<Real> advance = pitch[k.stage] * axis;
     w.moment = w.moment + cross(c.h, advance);
     w.force = madd(c.m, advance, w.force);
   }
@@ -98,22 +113,24 @@ inline Wrench<Real> unit_wrench(const Mechanism& m, const Parameters<Real>& p, i
 template <class Real>
 inline void update_mass_matrix(const Mechanism& m, const Parameters<Real>& p, Workspace<Real>& w) {
   const int nv = m.nv;
+  const Body* structure = m.bodies.data();
+  const Velocity* velocities = m.velocities.data();
+  const Real* pitch = p.pitch.data();
   const Vec3<Real>* axes = w.axes.data();
-  for (int k = 0; k < nv; ++k) {
-    Real* row = w.mass.data() + k * nv;
-    int b = m.v_body[static_cast<std::size_t>(k)];
-    Wrench<Real> f = unit_wrench(m, p, k, axes[k], w.bodies[static_cast<std::size_t>(b)].composite);
+  const BodyState<Real>* bodies = w.bodies.data();
+  Real* row = w.mass.data();
+  for (int k = 0; k < nv; ++k, row += nv) {
+    const Velocity& velocity = velocities[k];
+    int b = velocity.body;
+    Wrench<Real> f = unit_wrench(velocity, pitch, axes[k], composite_of(structure[b], bodies[b]));
     int i = k;
     while (true) {
-      const Body& body = m.bodies[static_cast<std::size_t>(b)];
-      for (; i >= body.v_begin; --i) row[i] = work_rate(m, p, i, axes[i], f);
+      const Body& body = structure[b];
+      for (; i >= body.v_begin; --i) row[i] = work_rate(velocities[i], pitch, axes[i], f);
       if (body.parent == 0) break;
-      if (body.shifted) {
-        f.moment = f.moment + cross(w.bodies[static_cast<std::size_t>(b)].shift, f.force);
-      }
+      if (body.shifted) f.moment = f.moment + cross(bodies[b].shift, f.force);
       b = body.parent;
-      const Body& next = m.bodies[static_cast<std::size_t>(b)];
-      i = next.v_begin + next.v_count - 1;
+      i = structure[b].v_begin + structure[b].v_count - 1;
     }
   }
 }

@@ -26,12 +26,14 @@ inline void add_joint_accelerations(const Mechanism& m, const Parameters<Real>& 
   for (int k = body.v_begin; k < body.v_begin + body.v_count; ++k) {
     const auto i = static_cast<std::size_t>(k);
     const Vec3<Real> e = w.qdd[i] * w.axes[i];
-    if (!m.v_rotates[i]) {
+    if (m.velocities[i].kind == VelocityKind::translation) {
       a = a + e;
       continue;
     }
     alpha = alpha + e;
-    if (m.v_screw[i] >= 0) a = madd(p.pitch[static_cast<std::size_t>(m.v_screw[i])], e, a);
+    if (m.velocities[i].kind == VelocityKind::screw) {
+      a = madd(p.pitch[static_cast<std::size_t>(m.velocities[i].stage)], e, a);
+    }
   }
   s.alpha = s.alpha + alpha;
   s.a = s.a + a;

@@ -139,6 +139,21 @@ inline void update_row(const Row& r, const ClosureState<Real>& x, const Mat3<Rea
   }
 }
 
+// The three ground axes at once, x y z in this order.
+template <class Real>
+inline void update_point_rows(const ClosureState<Real>& x, const Vec3<Real>& acceleration,
+                              RowState<Real>* rows) {
+  rows[0].d = x.p2.x - x.p1.x;
+  rows[1].d = x.p2.y - x.p1.y;
+  rows[2].d = x.p2.z - x.p1.z;
+  rows[0].rate = x.v2.x - x.v1.x;
+  rows[1].rate = x.v2.y - x.v1.y;
+  rows[2].rate = x.v2.z - x.v1.z;
+  rows[0].bias = acceleration.x;
+  rows[1].bias = acceleration.y;
+  rows[2].bias = acceleration.z;
+}
+
 // Rows of all closures of one model.
 template <class Real>
 inline void update_rows(const Mechanism& m, const Parameters<Real>& p, ClosureModel model,
@@ -153,7 +168,8 @@ inline void update_rows(const Mechanism& m, const Parameters<Real>& p, ClosureMo
     ClosureState<Real>& x = w.closures[i];
     update_closure_pose(m, c, p.closures[i], bodies, x);
     const Vec3<Real> acceleration = cut ? gap_acceleration(m, c, bodies, x) : zero3<Real>();
-    for (int r = c.row_begin; r < c.row_end; ++r) {
+    if (c.point_rows) update_point_rows(x, acceleration, states + c.row_begin);
+    for (int r = c.row_begin + (c.point_rows ? 3 : 0); r < c.row_end; ++r) {
       update_row(rows[r], x, p.closures[i].springs, bodies[c.first], bodies[c.second], acceleration,
                  states[r]);
     }
@@ -165,7 +181,12 @@ template <class Real>
 inline void sum_row_forces(const ClosureStructure& c, const Row* rows, const RowState<Real>* states,
                            ClosureState<Real>& x) {
   x.force_points = x.force_second = x.couple = zero3<Real>();
-  for (int r = c.row_begin; r < c.row_end; ++r) {
+  int begin = c.row_begin;
+  if (c.point_rows) {
+    x.force_points = {states[begin].value, states[begin + 1].value, states[begin + 2].value};
+    begin += 3;
+  }
+  for (int r = begin; r < c.row_end; ++r) {
     const RowState<Real>& row = states[r];
     switch (rows[r].kind) {
       case RowKind::translation_ground:

@@ -38,41 +38,47 @@ inline Vec3<Real> signed_column(const Mat3<Real>& m, int axis, int sign) {
 }
 
 template <class Real>
-inline Mat3<Real> turned_frame(const Body& body, const Mat3<Real>& parent,
-                               const Mat3<Real>& frame) {
-  if (body.frame == RotationShape::identity) return parent;
-  if (body.frame == RotationShape::general) return parent * frame;
-  const QuarterTurn& t = body.quarter;
-  return {signed_column(parent, t.axis[0], t.sign[0]), signed_column(parent, t.axis[1], t.sign[1]),
-          signed_column(parent, t.axis[2], t.sign[2])};
+inline void turn_frame(const Body& body, const Mat3<Real>& parent, const Mat3<Real>& frame,
+                       Mat3<Real>& r) {
+  if (body.frame == RotationShape::identity) {
+    r = parent;
+  } else if (body.frame == RotationShape::general) {
+    r = parent * frame;
+  } else {
+    const QuarterTurn& t = body.quarter;
+    r.x = signed_column(parent, t.axis[0], t.sign[0]);
+    r.y = signed_column(parent, t.axis[1], t.sign[1]);
+    r.z = signed_column(parent, t.axis[2], t.sign[2]);
+  }
 }
 
 // Joint frame in the parent, before the joint moves.
 template <class Real>
-inline Moving<Real> joint_frame(const Body& body, const BodyParameters<Real>& n,
-                                const BodyState<Real>& parent, const Body& parent_body) {
+inline Moving<Real> start_at_joint_frame(const Body& body, const BodyParameters<Real>& n,
+                                         const BodyState<Real>& parent, const Body& parent_body,
+                                         BodyState<Real>& s) {
+  s.v = parent.v;
+  s.a = parent.a;
   if (body.parent == 0) {
-    return {n.frame, n.origin, parent.omega, parent.v, parent.alpha, parent.a, false, false};
+    s.r = n.frame;
+    s.p = n.origin;
+    return {s, false, false};
   }
-  Moving<Real> x{turned_frame(body, parent.r, n.frame),
-                 parent.p,
-                 parent.omega,
-                 parent.v,
-                 parent.alpha,
-                 parent.a,
-                 parent_body.rotates,
-                 parent_body.gyrates};
+  turn_frame(body, parent.r, n.frame, s.r);
+  s.p = parent.p;
+  if (parent_body.rotates) s.omega = parent.omega;
+  if (parent_body.gyrates) s.alpha = parent.alpha;
   if (body.offset != VectorShape::zero) {
     const Vec3<Real> r = rotate(parent.r, n.origin, body.offset);
-    x.p = x.p + r;
-    if (x.rotates) {
-      const Vec3<Real> carried = cross(x.omega, r);
-      x.v = x.v + carried;
-      x.a = x.a + cross(x.omega, carried);
-      if (x.gyrates) x.a = x.a + cross(x.alpha, r);
+    s.p = s.p + r;
+    if (parent_body.rotates) {
+      const Vec3<Real> carried = cross(s.omega, r);
+      s.v = s.v + carried;
+      s.a = s.a + cross(s.omega, carried);
+      if (parent_body.gyrates) s.a = s.a + cross(s.alpha, r);
     }
   }
-  return x;
+  return {s, parent_body.rotates, parent_body.gyrates};
 }
 
 template <class Real>
@@ -111,23 +117,18 @@ inline void update_kinematics(const Mechanism& m, const Parameters<Real>& p, con
     const Body& body = m.bodies[static_cast<std::size_t>(b)];
     const BodyParameters<Real>& n = p.bodies[static_cast<std::size_t>(b)];
     const BodyState<Real>& parent = bodies[body.parent];
-    Moving<Real> x = joint_frame(body, n, parent, m.bodies[static_cast<std::size_t>(body.parent)]);
+    BodyState<Real>& s = bodies[b];
+    Moving<Real> x =
+        start_at_joint_frame(body, n, parent, m.bodies[static_cast<std::size_t>(body.parent)], s);
     for (int i = body.stage_begin; i < body.stage_end; ++i) {
       const Stage& stage = m.stages[static_cast<std::size_t>(i)];
       pass_stage(stage, p.pitch[static_cast<std::size_t>(i)], q + stage.q, v + stage.v, x,
                  axes + stage.v);
     }
-    BodyState<Real>& s = bodies[b];
-    s.r = x.r;
-    s.p = x.p;
-    if (body.shifted) s.shift = x.p - parent.p;
-    s.omega = x.omega;
-    s.v = x.v;
-    s.alpha = x.alpha;
-    s.a = x.a;
+    if (body.shifted) s.shift = s.p - parent.p;
     s.inertia.m = n.mass;
-    s.inertia.h = rotate(x.r, n.moment, body.center);
-    if (body.rotates) s.inertia.i = world_inertia(body.inertia, n.inertia, x.r);
+    s.inertia.h = rotate(s.r, n.moment, body.center);
+    if (body.rotates) s.inertia.i = world_inertia(body.inertia, n.inertia, s.r);
   }
 }
 

@@ -11,20 +11,16 @@
 #pragma once
 
 #include "core/base/elementary.h"
-#include "core/model/mechanism.h"
-#include "core/spatial/spatial.h"
+#include "core/model/workspace.h"
 
 namespace linkstudy {
 
-// Frame and its motion while stages are passed; see BodyState.
+// A body on its way through the stages of its joint: r, p, omega, v, alpha and a of `s` are those
+// of the frame reached so far. Entries of omega and alpha that cannot differ from zero are never
+// written (a new workspace has zeros there).
 template <class Real>
 struct Moving {
-  Mat3<Real> r;
-  Vec3<Real> p;
-  Vec3<Real> omega;
-  Vec3<Real> v;
-  Vec3<Real> alpha;
-  Vec3<Real> a;
+  BodyState<Real>& s;
   bool rotates;  // omega may differ from zero so far
   bool gyrates;  // alpha may
 };
@@ -35,33 +31,33 @@ inline void turn(Vec3<Real>& a, Vec3<Real>& b, Real angle) {
   const SinCos<Real> t = sincos(angle);
   const Vec3<Real> a0 = a;
   a = madd(t.cos, a0, t.sin * b);
-  b = madd(t.cos, b, Real(-t.sin) * a0);
+  b = msub(t.cos, b, t.sin * a0);
 }
 
 // Adds an angular velocity relative to the frame so far.
 template <class Real>
 inline void spin(Moving<Real>& x, const Vec3<Real>& relative) {
   if (!x.rotates) {
-    x.omega = relative;
+    x.s.omega = relative;
     x.rotates = true;
     return;
   }
-  const Vec3<Real> turning = cross(x.omega, relative);
-  x.alpha = x.gyrates ? x.alpha + turning : turning;
+  const Vec3<Real> turning = cross(x.s.omega, relative);
+  x.s.alpha = x.gyrates ? x.s.alpha + turning : turning;
   x.gyrates = true;
-  x.omega = x.omega + relative;
+  x.s.omega = x.s.omega + relative;
 }
 
 // Moves the origin by a vector r of the frame so far that grows at `rate`.
 template <class Real>
 inline void shift(Moving<Real>& x, const Vec3<Real>& r, const Vec3<Real>& rate) {
-  x.p = x.p + r;
-  x.v = x.v + rate;
+  x.s.p = x.s.p + r;
+  x.s.v = x.s.v + rate;
   if (!x.rotates) return;
-  const Vec3<Real> carried = cross(x.omega, r);
-  x.v = x.v + carried;
-  x.a = x.a + cross(x.omega, madd(Real(2.0), rate, carried));
-  if (x.gyrates) x.a = x.a + cross(x.alpha, r);
+  const Vec3<Real> carried = cross(x.s.omega, r);
+  x.s.v = x.s.v + carried;
+  x.s.a = x.s.a + cross(x.s.omega, madd(Real(2.0), rate, carried));
+  if (x.gyrates) x.s.a = x.s.a + cross(x.s.alpha, r);
 }
 
 template <class Real>
@@ -87,37 +83,37 @@ inline void pass_stage(const Stage& stage, Real pitch, const Real* q, const Real
                        Moving<Real>& x, Vec3<Real>* axis) {
   switch (stage.motion) {
     case BasicMotion::rz:
-      *axis = x.r.z;
-      spin(x, *v * x.r.z);
-      turn(x.r.x, x.r.y, *q);
+      *axis = x.s.r.z;
+      spin(x, *v * x.s.r.z);
+      turn(x.s.r.x, x.s.r.y, *q);
       return;
     case BasicMotion::tz:
-      return pass_translation(x, x.r.z, *q, *v, *axis);
+      return pass_translation(x, x.s.r.z, *q, *v, *axis);
     case BasicMotion::ry:
-      *axis = x.r.y;
-      spin(x, *v * x.r.y);
-      turn(x.r.z, x.r.x, *q);
+      *axis = x.s.r.y;
+      spin(x, *v * x.s.r.y);
+      turn(x.s.r.z, x.s.r.x, *q);
       return;
     case BasicMotion::rx:
-      *axis = x.r.x;
-      spin(x, *v * x.r.x);
-      turn(x.r.y, x.r.z, *q);
+      *axis = x.s.r.x;
+      spin(x, *v * x.s.r.x);
+      turn(x.s.r.y, x.s.r.z, *q);
       return;
     case BasicMotion::tx:
-      return pass_translation(x, x.r.x, *q, *v, *axis);
+      return pass_translation(x, x.s.r.x, *q, *v, *axis);
     case BasicMotion::ty:
-      return pass_translation(x, x.r.y, *q, *v, *axis);
+      return pass_translation(x, x.s.r.y, *q, *v, *axis);
     case BasicMotion::screw:
-      pass_translation(x, x.r.z, pitch * *q, pitch * *v, *axis);
-      spin(x, *v * x.r.z);
-      turn(x.r.x, x.r.y, *q);
+      pass_translation(x, x.s.r.z, pitch * *q, pitch * *v, *axis);
+      spin(x, *v * x.s.r.z);
+      turn(x.s.r.x, x.s.r.y, *q);
       return;
     case BasicMotion::ball:
-      x.r = x.r * rotation_of(q);
-      axis[0] = x.r.x;
-      axis[1] = x.r.y;
-      axis[2] = x.r.z;
-      spin(x, madd(v[0], x.r.x, madd(v[1], x.r.y, v[2] * x.r.z)));
+      x.s.r = x.s.r * rotation_of(q);
+      axis[0] = x.s.r.x;
+      axis[1] = x.s.r.y;
+      axis[2] = x.s.r.z;
+      spin(x, madd(v[0], x.s.r.x, madd(v[1], x.s.r.y, v[2] * x.s.r.z)));
       return;
   }
 }

@@ -120,6 +120,20 @@ bool is_translation(BasicMotion motion) {
   return motion <= BasicMotion::tz || motion == BasicMotion::screw;
 }
 
+VelocityKind velocity_kind(BasicMotion motion) {
+  if (motion == BasicMotion::screw) return VelocityKind::screw;
+  return is_rotation(motion) ? VelocityKind::rotation : VelocityKind::translation;
+}
+
+bool starts_with_ground_axes(const std::vector<Row>& rows, const ClosureStructure& c) {
+  if (c.row_end - c.row_begin < 3) return false;
+  for (int i = 0; i < 3; ++i) {
+    const Row& row = rows[static_cast<std::size_t>(c.row_begin + i)];
+    if (row.kind != RowKind::translation_ground || row.axis != i) return false;
+  }
+  return true;
+}
+
 class Compiler {
  public:
   explicit Compiler(const Linkage& linkage) : linkage_(linkage) {}
@@ -168,6 +182,7 @@ class Compiler {
                                     center * center.transpose());
     body.center = shape_of(center);
     body.inertia = shape_of_inertia(inertia);
+    m.bodies[static_cast<std::size_t>(body.parent)].carries = true;
     m.bodies.push_back(body);
     m.link_names.push_back(link.name);
     m.joint_names.push_back(joint.name);
@@ -188,8 +203,7 @@ class Compiler {
       const int count = motion == BasicMotion::ball ? 3 : 1;
       const int stage = static_cast<int>(m.stages.size()) - 1;
       for (int k = 0; k < count; ++k) {
-        m.v_rotates.push_back(is_rotation(motion) ? 1 : 0);
-        m.v_screw.push_back(motion == BasicMotion::screw ? stage : -1);
+        m.velocities.push_back({index, velocity_kind(motion), stage});
       }
       m.nq += motion == BasicMotion::ball ? 4 : 1;
       m.nv += count;
@@ -199,7 +213,6 @@ class Compiler {
     body.v_count = m.nv - body.v_begin;
     for (int k = body.v_begin; k < m.nv; ++k) {
       m.v_parent.push_back(k > body.v_begin ? k - 1 : last_velocity(body.parent));
-      m.v_body.push_back(index);
       if (joint.hold) model_.held.push_back(k);
     }
     add_start(joint, body);
@@ -272,7 +285,7 @@ class Compiler {
       c.needs_frames = c.needs_frames || kind == RowKind::rotation ||
                        kind == RowKind::translation_first || kind == RowKind::spring_first;
     }
-    c.point_rows = cut && (blocked_directions(closure.type) & 7u) == 7u;
+    c.point_rows = starts_with_ground_axes(rows, c);
     m.closure_names.push_back(closure.name);
 
     const Frame f1 = link_frames_[static_cast<std::size_t>(c.first)] * closure.first.frame;

@@ -26,6 +26,15 @@ struct Stage {
   int v;  // first velocity index; a ball has 3 (angular velocity in the joint's child frame)
 };
 
+// What one velocity (degree of freedom) does to its body.
+enum class VelocityKind : std::uint8_t { translation, rotation, screw };
+
+struct Velocity {
+  int body;
+  VelocityKind kind;
+  int stage;  // for the pitch of a screw
+};
+
 // How much of a constant vector or rotation is not trivial: what the step loop may skip.
 enum class VectorShape : std::uint8_t { zero, along_x, along_y, along_z, general };
 // quarter: a signed permutation of the axes (turns by multiples of 90 deg).
@@ -49,9 +58,10 @@ struct Body {
   VectorShape offset = VectorShape::general;  // origin of the joint frame in the parent
   VectorShape center = VectorShape::general;  // centre of mass
   InertiaShape inertia = InertiaShape::general;
-  bool shifted = true;  // the internal origin is not the parent's
-  bool rotates = true;  // angular velocity may differ from zero
-  bool gyrates = true;  // angular acceleration for qdd = 0 may differ from zero
+  bool carries = false;  // has bodies outboard
+  bool shifted = true;   // the internal origin is not the parent's
+  bool rotates = true;   // angular velocity may differ from zero
+  bool gyrates = true;   // angular acceleration for qdd = 0 may differ from zero
 };
 
 // A scalar direction of a closure: its displacement d, rate, and the wrench that works on it.
@@ -87,7 +97,7 @@ struct ClosureStructure {
   std::vector<int> support;                    // velocities on both paths to ground, descending
   bool needs_frames = false;                   // some row uses {1,e} or {2,e}
   bool has_line = false;                       // some row is a line of centres
-  bool point_rows = false;                     // cut: rows start with all three ground axes
+  bool point_rows = false;                     // rows start with the ground axes x y z
   VectorShape point_1 = VectorShape::general;  // closure points in their bodies
   VectorShape point_2 = VectorShape::general;
 };
@@ -105,13 +115,11 @@ struct LoadStructure {
 struct Mechanism {
   int nq = 0;
   int nv = 0;
-  std::vector<Body> bodies;             // (nb), [0] ground
-  std::vector<Stage> stages;            // in body order
-  std::vector<int> v_parent;            // (nv) previous velocity on the path to ground, or -1
-  std::vector<int> v_body;              // (nv)
-  std::vector<std::uint8_t> v_rotates;  // (nv) 1: rotation (or screw), 0: translation
-  std::vector<int> v_screw;             // (nv) stage of a screw, or -1
-  std::vector<int> ball_q;              // first position index of every quaternion
+  std::vector<Body> bodies;          // (nb), [0] ground
+  std::vector<Stage> stages;         // in body order
+  std::vector<int> v_parent;         // (nv) previous velocity on the path to ground, or -1
+  std::vector<Velocity> velocities;  // (nv)
+  std::vector<int> ball_q;           // first position index of every quaternion
   std::vector<ClosureStructure> closures;
   std::vector<Row> cut_rows;  // (nc) constraint rows, closure by closure
   std::vector<Row> sde_rows;  // (ns)

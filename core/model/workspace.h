@@ -12,16 +12,16 @@ namespace linkstudy {
 // Vectors in ground axes; moments about the body's own internal origin.
 template <class Real>
 struct BodyState {
-  Mat3<Real> r;           // R_WB
-  Vec3<Real> p;           // internal origin, m
-  Vec3<Real> shift;       // p less the parent's p
-  Vec3<Real> omega;       // angular velocity
-  Vec3<Real> v;           // velocity of the origin
-  Vec3<Real> alpha;       // angular acceleration for qdd = 0
-  Vec3<Real> a;           // acceleration of the origin for qdd = 0, less gravity
-  Inertia<Real> inertia;  // of the body and, in `composite`, of all bodies outboard
-  Inertia<Real> composite;
-  Wrench<Real> wrench;  // that moves the body (then: and all outboard) with qdd = 0
+  Mat3<Real> r;             // R_WB
+  Vec3<Real> p;             // internal origin, m
+  Vec3<Real> shift;         // p less the parent's p
+  Vec3<Real> omega;         // angular velocity
+  Vec3<Real> v;             // velocity of the origin
+  Vec3<Real> alpha;         // angular acceleration for qdd = 0
+  Vec3<Real> a;             // acceleration of the origin for qdd = 0, less gravity
+  Inertia<Real> inertia;    // of the body and, in `composite`, of all bodies outboard
+  Inertia<Real> composite;  // of bodies that carry others; else `inertia` is meant
+  Wrench<Real> wrench;      // that moves the body (then: and all outboard) with qdd = 0
 };
 
 // Closure points and frames.
@@ -66,8 +66,8 @@ struct Workspace {
   std::vector<Real> schur;               // (nc, nc) J M^-1 J^T, then its factor
   std::vector<Real> gram;                // (nc, nc) factor's Gram matrix, for redundant rows
   std::vector<Real> schur_rhs;           // (nc)
-  std::vector<Real> kept;                // (nc) 1: row independent, 0: redundant
-  std::vector<Real> scratch;             // (nc)
+  std::vector<Real> row_inverse;         // (nc) 1 / pivot of the factor; 0: redundant row
+  std::vector<Real> scratch;             // (2 nc)
   Real supplied_power = Real(0.0);       // W
   Real dissipated_power = Real(0.0);     // W
   bool redundant = false;                // some lane dropped a row in the last evaluation
@@ -103,8 +103,8 @@ Workspace<Real> make_workspace(const Mechanism& m) {
   w.schur.assign(nc * nc, Real(0.0));
   w.gram.assign(nc * nc, Real(0.0));
   w.schur_rhs.assign(nc, Real(0.0));
-  w.kept.assign(nc, Real(1.0));
-  w.scratch.assign(nc, Real(0.0));
+  w.row_inverse.assign(nc, Real(1.0));
+  w.scratch.assign(2 * nc, Real(0.0));
   return w;
 }
 

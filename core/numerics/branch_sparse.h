@@ -17,7 +17,7 @@ inline void factorize_branch_sparse(int n, const int* parent, Real* h, Real* inv
     for (int i = parent[k]; i >= 0; i = parent[i]) {
       const Real a = h[k * n + i] * inverse;
       for (int j = i; j >= 0; j = parent[j]) {
-        h[i * n + j] = madd(Real(-a), h[k * n + j], h[i * n + j]);
+        h[i * n + j] = nmadd(a, h[k * n + j], h[i * n + j]);
       }
       h[k * n + i] = a;
     }
@@ -28,7 +28,7 @@ inline void factorize_branch_sparse(int n, const int* parent, Real* h, Real* inv
 template <class Real>
 inline void solve_branch_transposed(int n, const int* parent, const Real* h, Real* x) {
   for (int k = n - 1; k >= 0; --k) {
-    for (int i = parent[k]; i >= 0; i = parent[i]) x[i] = madd(Real(-h[k * n + i]), x[k], x[i]);
+    for (int i = parent[k]; i >= 0; i = parent[i]) x[i] = nmadd(h[k * n + i], x[k], x[i]);
   }
 }
 
@@ -36,7 +36,7 @@ inline void solve_branch_transposed(int n, const int* parent, const Real* h, Rea
 template <class Real>
 inline void solve_branch(int n, const int* parent, const Real* h, Real* x) {
   for (int k = 0; k < n; ++k) {
-    for (int i = parent[k]; i >= 0; i = parent[i]) x[k] = madd(Real(-h[k * n + i]), x[i], x[k]);
+    for (int i = parent[k]; i >= 0; i = parent[i]) x[k] = nmadd(h[k * n + i], x[i], x[k]);
   }
 }
 

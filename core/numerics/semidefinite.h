@@ -1,75 +1,78 @@
 // Linear systems with a symmetric positive semidefinite matrix A, (n, n) row by row, lower triangle
-// used. Cholesky without pivoting, A = L L^T; a column whose pivot falls below `tolerance` times
-// the diagonal of A belongs to a dependent row and becomes zero. If any was dropped the solution is
-// the one of least norm, x = L (L^T L)^-2 L^T b, least squares where b is not in the range.
+// used. A = L D L^T without pivoting, L unit lower; a column whose pivot falls below `tolerance`
+// times the diagonal of A belongs to a dependent row and becomes zero. If any was dropped the
+// solution is the one of least norm: with C = L sqrt(D), x = C (C^T C)^-2 C^T b; least squares
+// where b is not in the range.
 #pragma once
 
 #include "core/base/real.h"
 
 namespace linkstudy {
 
-// Overwrites A with L. kept[i] is 1 for an independent row, 0 for a dropped one. Returns true if
-// any lane dropped a row.
-template <class Real>
-inline bool factorize_semidefinite(int n, Real tolerance, Real* a, Real* kept) {
+// n is an int, or a std::integral_constant where the size is known to the compiler.
+
+// Overwrites the strict lower triangle of A with L and its diagonal with D. inverse[i] is 1 / D_i,
+// or 0 for a dropped row. Returns true if any lane dropped a row.
+template <class Size, class Real>
+inline bool factorize_semidefinite(Size n, Real tolerance, Real* a, Real* inverse) {
   bool dropped = false;
+  const Real zero(0.0), one(1.0);
   for (int j = 0; j < n; ++j) {
     Real* row_j = a + j * n;
     const Real limit = tolerance * row_j[j];
     Real pivot = row_j[j];
-    for (int k = 0; k < j; ++k) pivot = madd(Real(-row_j[k]), row_j[k], pivot);
+    for (int k = 0; k < j; ++k) pivot = nmadd(row_j[k] * row_j[k], a[k * n + k], pivot);
     const auto keep = pivot > limit;
-    kept[j] = select(keep, Real(1.0), Real(0.0));
     dropped = dropped || !all(keep);
-    const Real root = sqrt(select(keep, pivot, Real(1.0)));
-    const Real inverse = select(keep, Real(1.0) / root, Real(0.0));
-    row_j[j] = select(keep, root, Real(0.0));
+    row_j[j] = select(keep, pivot, zero);
+    inverse[j] = select(keep, one / select(keep, pivot, one), zero);
     for (int i = j + 1; i < n; ++i) {
       Real* row_i = a + i * n;
       Real x = row_i[j];
-      for (int k = 0; k < j; ++k) x = madd(Real(-row_i[k]), row_j[k], x);
-      row_i[j] = x * inverse;
+      for (int k = 0; k < j; ++k) x = nmadd(row_i[k] * row_j[k], a[k * n + k], x);
+      row_i[j] = x * inverse[j];
     }
   }
   return dropped;
 }
 
 // b := A^-1 b with all rows kept.
-template <class Real>
-inline void solve_cholesky(int n, const Real* l, Real* b) {
-  for (int i = 0; i < n; ++i) {
-    Real x = b[i];
-    for (int k = 0; k < i; ++k) x = madd(Real(-l[i * n + k]), b[k], x);
-    b[i] = x / l[i * n + i];
+template <class Size, class Real>
+inline void solve_definite(Size n, const Real* l, const Real* inverse, Real* b) {
+  for (int i = 1; i < n; ++i) {
+    for (int k = 0; k < i; ++k) b[i] = nmadd(l[i * n + k], b[k], b[i]);
   }
   for (int i = n - 1; i >= 0; --i) {
-    Real x = b[i];
-    for (int k = i + 1; k < n; ++k) x = madd(Real(-l[k * n + i]), b[k], x);
-    b[i] = x / l[i * n + i];
+    Real x = b[i] * inverse[i];
+    for (int k = i + 1; k < n; ++k) x = nmadd(l[k * n + i], b[k], x);
+    b[i] = x;
   }
 }
 
-// b := A^+ b. gram, (n, n), and scratch, (n), are overwritten.
+// b := A^+ b. gram, (n, n), and scratch, (2 n), are overwritten.
 template <class Real>
-inline void solve_least_norm(int n, const Real* l, const Real* kept, Real* gram, Real* scratch,
+inline void solve_least_norm(int n, const Real* l, const Real* inverse, Real* gram, Real* scratch,
                              Real* b) {
-  for (int i = 0; i < n; ++i) {  // y = L^T b, row i needs b[i..]
+  Real* root = scratch;
+  for (int i = 0; i < n; ++i) root[i] = sqrt(l[i * n + i]);
+  const auto c = [&](int i, int j) { return i == j ? root[j] : l[i * n + j] * root[j]; };
+  for (int i = 0; i < n; ++i) {  // C^T b, entry i needs b[i..]; and C^T C, 1 for a dropped row
     Real x(0.0);
-    for (int k = i; k < n; ++k) x = madd(l[k * n + i], b[k], x);
+    for (int k = i; k < n; ++k) x = madd(c(k, i), b[k], x);
     b[i] = x;
     for (int j = 0; j <= i; ++j) {
       Real g(0.0);
-      for (int k = i; k < n; ++k) g = madd(l[k * n + i], l[k * n + j], g);
+      for (int k = i; k < n; ++k) g = madd(c(k, i), c(k, j), g);
       gram[i * n + j] = g;
     }
-    gram[i * n + i] = gram[i * n + i] + (Real(1.0) - kept[i]);
+    gram[i * n + i] = select(inverse[i] == Real(0.0), Real(1.0), gram[i * n + i]);
   }
-  factorize_semidefinite(n, Real(0.0), gram, scratch);  // positive definite
-  solve_cholesky(n, gram, b);
-  solve_cholesky(n, gram, b);
-  for (int i = n - 1; i >= 0; --i) {  // x = L u, row i needs u[..i]
+  factorize_semidefinite(n, Real(0.0), gram, scratch + n);  // positive definite
+  solve_definite(n, gram, scratch + n, b);
+  solve_definite(n, gram, scratch + n, b);
+  for (int i = n - 1; i >= 0; --i) {  // C u, entry i needs u[..i]
     Real x(0.0);
-    for (int k = 0; k <= i; ++k) x = madd(l[i * n + k], b[k], x);
+    for (int k = 0; k <= i; ++k) x = madd(c(i, k), b[k], x);
     b[i] = x;
   }
 }

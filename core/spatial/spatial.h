@@ -44,9 +44,8 @@ inline Inertia<Real> shift_inertia(const Inertia<Real>& a, const Vec3<Real>& r) 
   return {a.m,
           madd(a.m, r, a.h),
           {madd(two, yy + zz, a.i.xx), madd(two, xx + zz, a.i.yy), madd(two, xx + yy, a.i.zz),
-           madd(Real(-g.x), r.y, madd(Real(-g.y), r.x, a.i.xy)),
-           madd(Real(-g.x), r.z, madd(Real(-g.z), r.x, a.i.xz)),
-           madd(Real(-g.y), r.z, madd(Real(-g.z), r.y, a.i.yz))}};
+           nmadd(g.x, r.y, nmadd(g.y, r.x, a.i.xy)), nmadd(g.x, r.z, nmadd(g.z, r.x, a.i.xz)),
+           nmadd(g.y, r.z, nmadd(g.z, r.y, a.i.yz))}};
 }
 
 template <class Real>

@@ -54,6 +54,12 @@ inline Vec3<Real> madd(Real s, const Vec3<Real>& a, const Vec3<Real>& b) {
   return {madd(s, a.x, b.x), madd(s, a.y, b.y), madd(s, a.z, b.z)};
 }
 
+// s a - b
+template <class Real>
+inline Vec3<Real> msub(Real s, const Vec3<Real>& a, const Vec3<Real>& b) {
+  return {msub(s, a.x, b.x), msub(s, a.y, b.y), msub(s, a.z, b.z)};
+}
+
 template <class Real>
 inline Real dot(const Vec3<Real>& a, const Vec3<Real>& b) {
   return madd(a.x, b.x, madd(a.y, b.y, a.z * b.z));
@@ -61,7 +67,7 @@ inline Real dot(const Vec3<Real>& a, const Vec3<Real>& b) {
 
 template <class Real>
 inline Vec3<Real> cross(const Vec3<Real>& a, const Vec3<Real>& b) {
-  return {madd(a.y, b.z, -(a.z * b.y)), madd(a.z, b.x, -(a.x * b.z)), madd(a.x, b.y, -(a.y * b.x))};
+  return {msub(a.y, b.z, a.z * b.y), msub(a.z, b.x, a.x * b.z), msub(a.x, b.y, a.y * b.x)};
 }
 
 template <class Real>
