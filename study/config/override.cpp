@@ -201,7 +201,7 @@ Override make_override(const std::string& path, const Value& value) {
   }
   const std::string& text = std::get<std::string>(value);
   if (text == "true" || text == "false") return make(Tree::make_boolean(text == "true", origin));
-  const std::optional<Quantity> quantity = split_quantity(text);
+  const std::optional<WrittenQuantity> quantity = split_quantity(text);
   const bool is_number = quantity && quantity->unit.empty();
   return make(is_number ? Tree::make_number(quantity->value, origin)
                         : Tree::make_text(text, origin));

@@ -142,7 +142,7 @@ class RecordReader {
   }
 
   std::optional<FailureLimit> read_limit(const Tree& value) {
-    const std::optional<Quantity> quantity =
+    const std::optional<WrittenQuantity> quantity =
         value.is(Kind::text) ? split_quantity(value.text) : std::nullopt;
     const bool is_percent = quantity && quantity->unit == "%";
     const double number = is_percent ? quantity->value : value.as_number();

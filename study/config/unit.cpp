@@ -184,14 +184,14 @@ std::optional<Unit> parse_unit(std::string_view text, std::string* fault) {
   return unit;
 }
 
-std::optional<Quantity> split_quantity(std::string_view text) {
+std::optional<WrittenQuantity> split_quantity(std::string_view text) {
   text = trimmed(text);
   if (text.size() > 1 && text.front() == '+' && text[1] != '-') text.remove_prefix(1);
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || !std::isfinite(value)) return std::nullopt;
   const std::string_view rest = text.substr(static_cast<std::size_t>(end - text.data()));
-  return Quantity{value, std::string(trimmed(rest))};
+  return WrittenQuantity{value, std::string(trimmed(rest))};
 }
 
 std::optional<double> convert_unit(double value, const Unit& from, const Unit& to) {

@@ -19,7 +19,7 @@ struct Unit {
   std::array<int, 4> dimensions{};  // exponents of m, kg, s, rad
 };
 
-struct Quantity {
+struct WrittenQuantity {
   double value = 0.0;  // as written
   std::string unit;    // as written
 };
@@ -28,7 +28,7 @@ struct Quantity {
 std::optional<Unit> parse_unit(std::string_view text, std::string* fault = nullptr);
 
 // Splits "60 deg" into its number and the rest; nothing when it does not start with a number.
-std::optional<Quantity> split_quantity(std::string_view text);
+std::optional<WrittenQuantity> split_quantity(std::string_view text);
 
 // Converts `value from` to the unit `to`; nothing when the dimensions differ.
 std::optional<double> convert_unit(double value, const Unit& from, const Unit& to);

@@ -399,7 +399,7 @@ bool convert_text(Tree& value, const KeyRow& row, const std::string& subject,
                                   ? "write a plain number"
                                   : fmt::format("write a number, or a text such as \"1.5 {}\"",
                                                 unit_alternatives(row.unit).front());
-  const std::optional<Quantity> quantity = split_quantity(value.text);
+  const std::optional<WrittenQuantity> quantity = split_quantity(value.text);
   if (!quantity)
     return fail(fmt::format("{} must be {}, got {}", subject, wanted, shown(value)), example);
   if (quantity->unit.empty()) {

@@ -1,0 +1,110 @@
+#include "study/cli/model_report.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "study/cli/output.h"
+
+namespace linkstudy {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kStability[] = {"stable", "neutral", "unstable"};
+
+std::string assembly_text(const AssemblyReport& a) {
+  std::string text = fmt::format("{}, residual {:.3g}", a.closed ? "closed" : "open", a.residual);
+  if (a.displacement > 0.0) {
+    text += fmt::format(" (given {:.3g}, moved {:.3g} in {} iterations)", a.residual_given,
+                        a.displacement, a.iterations);
+  }
+  if (a.restarts > 0) text += fmt::format(", restart {}", a.restarts);
+  if (a.rows > 0) {
+    text += a.branch == 0 ? ", branch not defined" : fmt::format(", branch {:+d}", a.branch);
+  }
+  return text;
+}
+
+std::string mobility_text(const AssemblyReport& a, int velocities) {
+  std::string text = fmt::format("{} ({} velocities, {} closure equations of rank {}", a.mobility,
+                                 velocities, a.rows, a.rank);
+  if (a.rank < a.rows) text += fmt::format(", {} redundant", a.rows - a.rank);
+  return text + ")";
+}
+
+std::string statics_text(const StaticsReport& s) {
+  if (!s.converged) return fmt::format("not found in {} iterations", s.iterations);
+  return fmt::format("{}, smallest stiffness {:.4g}, force residual {:.3g} in {} iterations",
+                     kStability[static_cast<int>(s.stability)], s.smallest_stiffness,
+                     s.force_residual, s.iterations);
+}
+
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+}  // namespace
+
+std::string preparation_text(const std::string& file, const std::string& name,
+                             const Preparation& preparation, const SimulationOptions& options) {
+  const Spectrum& spectrum = preparation.spectrum;
+  const double h = make_step_grid(options).h;
+  std::string text = summary_line("model", fmt::format("{} ({})", name, file));
+  text += summary_line("assembly", assembly_text(preparation.assembly));
+  if (!preparation.assembly.closed) return text;
+  text +=
+      summary_line("mobility", mobility_text(preparation.assembly, preparation.model.mechanism.nv));
+  if (preparation.statics) text += summary_line("equilibrium", statics_text(*preparation.statics));
+  if (preparation.cause != Cause::ok) return text;
+  text += summary_line("omega_max", fmt::format("{:.6g} rad/s at the start", spectrum.omega_max));
+  text += summary_line("step", fmt::format("{:.6g} s, RK4 limit {:.4g} s, h omega_max {:.3g}", h,
+                                           spectrum.step_limit, h * spectrum.omega_max));
+  return text;
+}
+
+std::string warning_text(const Preparation& preparation) {
+  std::string text;
+  for (const std::string& warning : preparation.warnings) {
+    text += fmt::format("linkstudy: warning: {}\n", warning);
+  }
+  return text;
+}
+
+std::string outcome_text(const SimulationOutcome& outcome, double wall_s) {
+  std::string text =
+      summary_line("status", outcome.cause == Cause::ok
+                                 ? std::string("ok")
+                                 : fmt::format("{}: {}", name_of(outcome.cause), outcome.message));
+  text +=
+      summary_line("reached", fmt::format("{:.6g} s in {} steps", outcome.end_time, outcome.steps));
+  text += summary_line("drift_max", fmt::format("{:.4g}", outcome.drift_max));
+  text += summary_line("energy", fmt::format("residual at most {:.4g} J of {:.4g} J",
+                                             outcome.energy_residual_max, outcome.energy_scale));
+  if (outcome.redundant) {
+    text += summary_line("note", "closure equations were redundant at some instant");
+  }
+  return text + summary_line("wall", fmt::format("{:.3g} s", wall_s));
+}
+
+std::string outcome_json(const Preparation& preparation, const SimulationOutcome* outcome,
+                         double wall_s) {
+  const bool ran = outcome != nullptr;
+  const Cause cause = ran ? outcome->cause : preparation.cause;
+  const bool is_prepared = preparation.cause == Cause::ok;
+  const double nan = std::nan("");
+  const Json json = {{"status", cause == Cause::ok ? "done" : "failed"},
+                     {"cause", name_of(cause)},
+                     {"message", ran ? outcome->message : preparation.message},
+                     {"end_time", number(ran ? outcome->end_time : 0.0)},
+                     {"steps", ran ? outcome->steps : 0},
+                     {"drift_max", number(ran ? outcome->drift_max : nan)},
+                     {"energy_residual_max", number(ran ? outcome->energy_residual_max : nan)},
+                     {"step_limit", number(is_prepared ? preparation.spectrum.step_limit : nan)},
+                     {"omega_max", number(is_prepared ? preparation.spectrum.omega_max : nan)},
+                     {"wall_s", wall_s}};
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace linkstudy

@@ -1,0 +1,26 @@
+// What a prepared model and its run look like to people and to programs.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/simulation/prepare.h"
+#include "core/simulation/simulate.h"
+
+namespace linkstudy {
+
+// Assembly, mobility, redundancy, equilibrium, eigenfrequency and step limit as aligned lines.
+std::string preparation_text(const std::string& file, const std::string& name,
+                             const Preparation& preparation, const SimulationOptions& options);
+
+// Warnings, one a line.
+std::string warning_text(const Preparation& preparation);
+
+// How the run ended.
+std::string outcome_text(const SimulationOutcome& outcome, double wall_s);
+
+// The object of `simulate --json` and `statics --json`. Numbers that are not finite are null.
+std::string outcome_json(const Preparation& preparation, const SimulationOutcome* outcome,
+                         double wall_s);
+
+}  // namespace linkstudy

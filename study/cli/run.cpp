@@ -1,0 +1,52 @@
+#include "study/cli/run.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+#include <stdexcept>
+
+#include "study/cli/exit_code.h"
+#include "study/cli/output.h"
+#include "study/cli/report_error.h"
+#include "study/cli/verbs.h"
+#include "study/cli/version.h"
+
+namespace linkstudy {
+namespace {
+
+struct VerbEntry {
+  const char* name;
+  int (*run)(const CommandLine&);
+};
+
+constexpr VerbEntry kVerbs[] = {{"check", run_check},       {"describe", run_describe},
+                                {"simulate", run_simulate}, {"statics", run_statics},
+                                {"study", run_study},       {"tune", run_tune},
+                                {"status", run_status},     {"export", run_export}};
+
+int run_verb(const std::vector<std::string>& arguments) {
+  const CommandLine line = parse_command_line(arguments);
+  if (line.verb == "version" || line.verb == "help" || line.help) {
+    print_out(line.help ? usage_of(line.verb) : line.verb == "help" ? usage() : version_text());
+    return kDone;
+  }
+  for (const VerbEntry& verb : kVerbs) {
+    if (line.verb == verb.name) return verb.run(line);
+  }
+  throw std::logic_error("a verb without a function: " + line.verb);
+}
+
+}  // namespace
+
+int run_program(const std::vector<std::string>& arguments) {
+  try {
+    return run_verb(arguments);
+  } catch (...) {
+    const Failure failure = describe_failure(std::current_exception());
+    fmt::print(stderr, "{}", failure.text);
+    return failure.code;
+  }
+}
+
+}  // namespace linkstudy

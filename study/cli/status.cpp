@@ -1,0 +1,50 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "study/cli/exit_code.h"
+#include "study/cli/output.h"
+#include "study/cli/verbs.h"
+#include "study/schedule/progress.h"
+#include "study/store/status.h"
+
+namespace linkstudy {
+namespace {
+
+std::string to_json(const StudyStatus& status) {
+  nlohmann::ordered_json failed = nlohmann::ordered_json::object();
+  for (const auto& [cause, count] : status.failed) failed[std::string(name_of(cause))] = count;
+  nlohmann::ordered_json json = {
+      {"total", status.total}, {"done", status.done},
+      {"failed", failed},      {"running", status.running},
+      {"eta_s", nullptr},      {"last_write_age_s", status.last_write_age_s}};
+  if (status.eta_s) json["eta_s"] = *status.eta_s;
+  return json.dump() + "\n";
+}
+
+std::string to_text(const StudyStatus& status) {
+  const std::uint64_t finished = status.done + status.failed_count();
+  std::string text = summary_line("state", status.running            ? "running"
+                                           : status.total == 0       ? "not running"
+                                           : finished < status.total ? "not running, resumable"
+                                                                     : "complete");
+  const std::string total = status.total > 0 ? fmt::format(" of {}", status.total) : "";
+  text += summary_line("done", fmt::format("{}{}", status.done, total));
+  for (const auto& [cause, count] : status.failed) {
+    text += summary_line("failed", fmt::format("{} {}", count, name_of(cause)));
+  }
+  if (status.eta_s && status.running) {
+    text += summary_line("time left", duration_text(*status.eta_s));
+  }
+  return text + summary_line("last write", duration_text(status.last_write_age_s) + " ago");
+}
+
+}  // namespace
+
+int run_status(const CommandLine& line) {
+  const StudyStatus status = read_status(line.inputs.front());
+  print_out(line.json ? to_json(status) : to_text(status));
+  return kDone;
+}
+
+}  // namespace linkstudy

@@ -1,0 +1,55 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "study/cli/exit_code.h"
+#include "study/cli/output.h"
+#include "study/cli/study_end.h"
+#include "study/cli/verbs.h"
+#include "study/report/results_table.h"
+
+namespace linkstudy {
+namespace {
+
+std::string to_json(const StudyEnd& end, const StudyRecord& record) {
+  nlohmann::ordered_json failed = nlohmann::ordered_json::object();
+  for (const auto& [cause, count] : record.failures()) failed[std::string(name_of(cause))] = count;
+  const nlohmann::ordered_json json = {
+      {"status", end.status},
+      {"evaluations", record.evaluations().size()},
+      {"done", record.evaluations().size() - record.failure_count()},
+      {"failed", failed},
+      {"digest", end.digest},
+      {"results", record.results_path().string()}};
+  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+int finish(StudySession& session, StudyEnd end) {
+  StudyRecord& record = session.record();
+  // A study of which nothing came out is no success, however many failures are accepted.
+  if (end.code == kDone && record.failure_count() == record.evaluations().size()) {
+    end.code = kTooManyFailed;
+    end.status = "failed";
+    fmt::print(stderr, "linkstudy: error: every evaluation failed\n");
+  }
+  if (session.line().json) {
+    print_out(to_json(end, record));
+    return end.code;
+  }
+  if (end.code != exit_resumable) {
+    print_out(text_of(results_table(record.results())));
+    print_out(fmt::format("results digest: {}\n", end.digest));
+  }
+  return end.code;
+}
+
+}  // namespace
+
+int run_study(const CommandLine& line) {
+  return run_session(line, StudyKind::study, [](StudySession& session) {
+    const std::vector<Point> points = points_of(session.evaluator().input());
+    return finish(session, end_study(session, [&] { session.evaluate(points); }));
+  });
+}
+
+}  // namespace linkstudy

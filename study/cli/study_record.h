@@ -1,0 +1,71 @@
+// Rank 0's hold on a results directory while a study or tune runs: the journal, what is in it so
+// far, and the files made from it.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "study/evaluate/case_result.h"
+#include "study/store/journal.h"
+#include "study/store/results.h"
+
+namespace linkstudy {
+
+// A name as part of a path: "Lowest stiffness of RSRRP" -> "lowest-stiffness-of-rsrrp".
+std::string slug_of(const std::string& name);
+
+struct StudyIdentity {
+  StudyDescription description;
+  std::string input_sha256;
+  std::vector<NamedText> texts;
+  ProvenanceRow start;  // event is filled in
+};
+
+class StudyRecord {
+ public:
+  // Prepares the directory and opens the journal (store/directory.h, store/journal.h say what is
+  // refused).
+  StudyRecord(std::filesystem::path directory, const StudyIdentity& identity, bool fresh);
+  // Removes a directory in which nothing was ever evaluated and that was made for this.
+  void discard_if_empty();
+
+  const std::filesystem::path& directory() const { return directory_; }
+  Journal& journal() { return journal_; }
+  bool is_resumed() const { return is_resumed_; }
+
+  // By id; failed ones included.
+  const std::map<std::uint64_t, Evaluation>& evaluations() const { return evaluations_; }
+  std::map<Cause, std::uint64_t> failures() const;
+  std::uint64_t failure_count() const;
+
+  void add(Evaluation evaluation, const std::vector<CaseTraces>& traces);
+  void add_references(const std::vector<CaseTraces>& references);
+  // The object of `tune --json` and the tables of a tuning.
+  void set_tuning(const std::string& name, const std::string& json, DataGroup tables);
+
+  // Writes results.h5 and returns the results digest.
+  std::string write(RunStatus status);
+  // The same now and then, while the study runs: at most a fiftieth of the time.
+  void write_if_due();
+
+  // As last written.
+  const StudyResults& results() const { return results_; }
+
+  std::filesystem::path results_path() const;
+
+ private:
+  void add_traces(TraceSet set);
+
+  std::filesystem::path directory_;
+  bool is_made_ = false;  // the directory did not exist before
+  Journal journal_;
+  bool is_resumed_ = false;
+  StudyResults results_;  // evaluations are in evaluations_
+  std::map<std::uint64_t, Evaluation> evaluations_;
+  std::chrono::steady_clock::time_point next_write_;
+};
+
+}  // namespace linkstudy

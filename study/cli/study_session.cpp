@@ -1,0 +1,364 @@
+#include "study/cli/study_session.h"
+
+#include <fmt/format.h>
+#include <spdlog/sinks/basic_file_sink.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+#include <future>
+#include <limits>
+
+#include "study/cli/exit_code.h"
+#include "study/cli/report_error.h"
+#include "study/cli/study_identity.h"
+#include "study/cli/version.h"
+#include "study/schedule/launcher.h"
+#include "study/store/directory.h"
+#include "study/store/status.h"
+#include "study/store/store_error.h"
+
+namespace linkstudy {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Seconds = std::chrono::duration<double>;
+
+// Time kept of the wall time for what is in flight and for writing.
+double margin_of(double walltime_s) {
+  return std::clamp(0.1 * walltime_s, 0.1, 60.0);
+}
+
+std::optional<double> slurm_walltime() {
+  const std::optional<std::string> text = read_environment("SLURM_JOB_END_TIME");
+  double end = 0.0;
+  if (!text) return std::nullopt;
+  const auto [last, error] = std::from_chars(text->data(), text->data() + text->size(), end);
+  if (error != std::errc() || last != text->data() + text->size()) return std::nullopt;
+  return std::max(0.0, end - unix_time_s());
+}
+
+std::optional<Clock::time_point> find_deadline(const CommandLine& line, Clock::time_point start) {
+  const std::optional<double> walltime = line.walltime_s ? line.walltime_s : slurm_walltime();
+  if (!walltime) return std::nullopt;
+  const Seconds left(*walltime - margin_of(*walltime));
+  return start + std::chrono::duration_cast<Clock::duration>(left);
+}
+
+// Runs a step on this rank and agrees on how it ended. What rank 0 has to say is said by it alone;
+// what went wrong on another rank only, by that one.
+int pass_gate(Transport& transport, const std::function<int()>& step) {
+  Failure failure;
+  try {
+    failure.code = step();
+  } catch (const Interrupted&) {
+    failure.code = exit_resumable;
+  } catch (...) {
+    failure = describe_failure(std::current_exception());
+  }
+  const int agreed = transport.agree_exit_code(failure.code);
+  if (agreed == kDone) return kDone;
+  std::string first = failure.text;
+  transport.broadcast(first);
+  if (transport.rank() == 0 || first.empty()) fmt::print(stderr, "{}", failure.text);
+  return agreed;
+}
+
+// References in a thread, so that a stop signal is seen while they run.
+int run_references(Evaluator& evaluator) {
+  std::atomic<bool> cancelled{false};
+  std::future<void> running =
+      std::async(std::launch::async, [&] { evaluator.run_references(&cancelled); });
+  while (running.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready) {
+    if (stop_level() > 0) cancelled = true;
+  }
+  try {
+    running.get();
+  } catch (const ReferenceFailure& failure) {
+    if (failure.cause() == Cause::cancelled) throw Interrupted();
+    throw;
+  }
+  return kDone;
+}
+
+std::shared_ptr<spdlog::logger> open_log(const CommandLine& line, const StudyRecord& record) {
+  const std::string path = (record.directory() / kLogName).string();
+  auto log = std::make_shared<spdlog::logger>(
+      "linkstudy", std::make_shared<spdlog::sinks::basic_file_sink_mt>(path));
+  log->set_level(spdlog::level::from_str(line.log_level));
+  log->flush_on(spdlog::level::info);
+  return log;
+}
+
+std::string one_line(std::string text) {
+  std::ranges::replace(text, '\n', ' ');
+  return text;
+}
+
+Evaluation to_evaluation(const Point& point, const TaskResult& task, const CaseResult& result) {
+  Evaluation evaluation;
+  evaluation.point = point;
+  evaluation.status = result.status;
+  evaluation.message = one_line(result.message);
+  evaluation.responses = result.responses;
+  evaluation.attempts = result.attempts;
+  evaluation.wall_s = task.seconds;
+  evaluation.rank = task.rank;
+  evaluation.host = result.host;
+  return evaluation;
+}
+
+CaseResult result_of(const TaskResult& task) {
+  if (!task.failed) return decode_result(task.bytes);
+  CaseResult result;
+  result.status = Cause::exception;
+  result.message = task.bytes;
+  return result;
+}
+
+bool same_values(const Point& a, const Point& b) {
+  return encode_point(a) == encode_point(b);
+}
+
+// The session of one process, step by step.
+class Launch {
+ public:
+  Launch(const CommandLine& line, StudyKind kind, Transport& transport)
+      : line_(line), kind_(kind), transport_(transport), start_(Clock::now()) {}
+
+  int run(const SessionWork& work) {
+    int code = pass_gate(transport_, [this] { return read_input(); });
+    if (code != kDone) return code;
+    code = pass_gate(transport_, [this] { return open_record(); });
+    if (code == kDone && wants_references()) {
+      code = pass_gate(transport_, [this] { return run_references(*evaluator_); });
+      if (code != kDone) return leave_without_work(code);
+    }
+    return code == kDone ? hand_out(work) : code;
+  }
+
+ private:
+  bool is_first() const { return transport_.rank() == 0; }
+
+  int read_input() {
+    const StudyInput input = read_study_input(line_, kind_);
+    Diagnostics diagnostics;
+    evaluator_ = make_evaluator(input, diagnostics);
+    throw_if_any(diagnostics);
+    if (kind_ == StudyKind::study) total_ = points_of(input).size();
+    return kDone;
+  }
+
+  int open_record() {
+    if (!is_first()) return kDone;
+    const StudyIdentity identity = make_identity(line_, *evaluator_, total_, transport_);
+    const std::string directory = directory_of(line_, evaluator_->input());
+    record_ = std::make_unique<StudyRecord>(directory, identity, line_.fresh);
+    log_ = open_log(line_, *record_);
+    log_->info("{} ({} ranks)", line_.command, transport_.size());
+    print_banner(identity);
+    return kDone;
+  }
+
+  void print_banner(const StudyIdentity& identity) {
+    const std::string revision = git_revision().empty() ? "" : " " + git_revision();
+    fmt::print(stderr, "linkstudy {}{}, {} rank{} on {} node{}, 1 lane, input {}\n",
+               program_version(), revision, transport_.size(), transport_.size() == 1 ? "" : "s",
+               transport_.nodes(), transport_.nodes() == 1 ? "" : "s",
+               identity.input_sha256.substr(0, 12));
+    const std::string counts = counts_text(*record_, total_);
+    fmt::print(stderr, "{}: {}\n", record_->directory().string(), counts);
+    log_->info("{}", counts);
+  }
+
+  // A finished study that is started again needs none. Rank 0 knows.
+  bool wants_references() {
+    std::string answer(1, '1');
+    if (is_first()) {
+      const bool is_finished = total_ > 0 && record_->evaluations().size() >= total_;
+      answer[0] = is_finished ? '0' : '1';
+    }
+    transport_.broadcast(answer);
+    return answer[0] == '1';
+  }
+
+  int leave_without_work(int code) {
+    if (record_) log_->error("ended before any evaluation with exit code {}", code);
+    if (record_ && code != exit_resumable) record_->discard_if_empty();
+    return code;
+  }
+
+  PoolOptions pool_options() {
+    PoolOptions options;
+    options.deadline = find_deadline(line_, start_);
+    if (!is_first()) return options;
+    options.on_terminate = [this] { record_->journal().sync(); };
+    options.on_tick = [this] {
+      if (session_) session_->tick();
+    };
+    return options;
+  }
+
+  int hand_out(const SessionWork& work) {
+    const std::string host = transport_.host();
+    Evaluator& evaluator = *evaluator_;
+    const auto compute = [&evaluator, host](const std::string& task) {
+      CaseResult result = evaluator.evaluate(decode_point(task).values);
+      result.host = host;
+      return encode_result(result);
+    };
+    int code = kDone;
+    {
+      Pool pool(transport_, compute, pool_options());
+      if (is_first()) {
+        code = lead(pool, work);
+      } else {
+        pool.serve();
+      }
+    }
+    return transport_.agree_exit_code(code);
+  }
+
+  int lead(Pool& pool, const SessionWork& work) {
+    int code = kInternalError;
+    try {
+      record_->add_references(evaluator_->reference_traces());
+      session_ = std::make_unique<StudySession>(line_, *evaluator_, *record_, pool, *log_, total_);
+      code = work(*session_);
+    } catch (...) {
+      const Failure failure = describe_failure(std::current_exception());
+      fmt::print(stderr, "{}", failure.text);
+      log_->error("{}", failure.text);
+      code = failure.code;
+    }
+    log_->info("exit code {}", code);
+    if (session_ && session_->is_abandoned()) pool.leave_now(code);
+    return code;
+  }
+
+  const CommandLine& line_;
+  StudyKind kind_;
+  Transport& transport_;
+  Clock::time_point start_;
+  std::unique_ptr<Evaluator> evaluator_;
+  std::uint64_t total_ = 0;
+  std::unique_ptr<StudyRecord> record_;  // rank 0
+  std::shared_ptr<spdlog::logger> log_;  // rank 0
+  std::unique_ptr<StudySession> session_;
+};
+
+std::size_t failure_limit(const RunOptions& run, std::uint64_t total) {
+  if (!run.max_failures) return std::numeric_limits<std::size_t>::max();
+  const double share = run.max_failures->is_percent ? static_cast<double>(total) / 100.0 : 1.0;
+  return static_cast<std::size_t>(run.max_failures->value * share);
+}
+
+}  // namespace
+
+std::string counts_text(const StudyRecord& record, std::uint64_t total) {
+  const std::uint64_t finished = record.evaluations().size();
+  const std::uint64_t failed = record.failure_count();
+  if (total == 0) return fmt::format("{} done, {} failed", finished - failed, failed);
+  return fmt::format("{} of {} done, {} failed, {} left", finished - failed, total, failed,
+                     total - std::min(finished, total));
+}
+
+StudySession::StudySession(const CommandLine& line, Evaluator& evaluator, StudyRecord& record,
+                           Pool& pool, spdlog::logger& log, std::uint64_t total)
+    : line_(line),
+      evaluator_(evaluator),
+      record_(record),
+      pool_(pool),
+      log_(log),
+      total_(total),
+      failures_(record.failure_count()),
+      progress_(*find_progress_mode(line.progress), total, record.evaluations().size(),
+                Clock::now()) {}
+
+void StudySession::evaluate(const std::vector<Point>& points) {
+  check_failures();
+  std::vector<Point> pending;
+  std::vector<std::string> tasks;
+  for (const Point& point : points) {
+    const auto known = record_.evaluations().find(point.id);
+    if (known == record_.evaluations().end()) {
+      pending.push_back(point);
+      tasks.push_back(encode_point(point));
+    } else if (!same_values(known->second.point, point)) {
+      throw StoreError(fmt::format(
+          "{}: evaluation {} in the journal has other inputs than this program asks for; continue "
+          "with the program that wrote it or overwrite it with --fresh",
+          record_.directory().string(), point.id));
+    }
+  }
+  if (tasks.empty()) return;
+  const RunOutcome outcome = pool_.run(
+      std::move(tasks), [&](const TaskResult& result) { take(pending[result.index], result); });
+  record_.journal().sync();
+  abandoned_ = outcome.end == RunEnd::abandoned;
+  if (outcome.interrupted()) {
+    log_.warn("interrupted: {}", outcome.end == RunEnd::deadline ? "wall time" : "stop signal");
+    throw Interrupted();
+  }
+  if (!stop_reason_.empty()) throw TooManyFailures(stop_reason_);
+}
+
+void StudySession::take(const Point& point, const TaskResult& task) {
+  const CaseResult result = result_of(task);
+  record_.add(to_evaluation(point, task, result), result.traces);
+  log_.debug("evaluation {}: {} in {:.3g} s on rank {}", point.id, name_of(result.status),
+             task.seconds, task.rank);
+  if (result.status != Cause::ok) {
+    ++failures_;
+    log_.warn("evaluation {}: {}: {}", point.id, name_of(result.status), one_line(result.message));
+    try {
+      check_failures();
+    } catch (const TooManyFailures& reason) {
+      stop_reason_ = reason.what();
+      pool_.cancel();
+    }
+  }
+  progress_.update(record_.evaluations().size(), failures_, Clock::now());
+}
+
+void StudySession::check_failures() {
+  const RunOptions& run = evaluator_.input().run;
+  if (failures_ > 0 && run.on_failure == FailurePolicy::abort) {
+    const auto& all = record_.evaluations();
+    const auto failed = std::ranges::find_if(
+        all, [](const auto& entry) { return entry.second.status != Cause::ok; });
+    throw TooManyFailures(fmt::format("evaluation {} failed ({}): {}; on-failure is abort",
+                                      failed->first, name_of(failed->second.status),
+                                      failed->second.message));
+  }
+  const auto budget = static_cast<std::uint64_t>(evaluator_.input().search.max_evaluations);
+  const std::size_t limit = failure_limit(run, total_ > 0 ? total_ : budget);
+  if (failures_ <= limit) return;
+  throw TooManyFailures(
+      fmt::format("{} evaluations failed, {} are accepted (max_failures)", failures_, limit));
+}
+
+void StudySession::tick() {
+  progress_.tick(Clock::now());
+  record_.journal().sync_if_due();
+  record_.write_if_due();
+}
+
+void StudySession::finish_progress() {
+  progress_.finish(Clock::now());
+}
+
+int run_session(const CommandLine& line, StudyKind kind, const SessionWork& work) {
+  const StopSignals signals;
+  const std::unique_ptr<Transport> transport = make_transport();
+  try {
+    return Launch(line, kind, *transport).run(work);
+  } catch (const std::exception& error) {
+    // This rank cannot take part any more, and the others would wait for it.
+    fmt::print(stderr, "linkstudy: error: rank {}: {}\n", transport->rank(), error.what());
+    if (transport->size() > 1) transport->abort_all(kInternalError);
+    return kInternalError;
+  }
+}
+
+}  // namespace linkstudy

@@ -1,0 +1,73 @@
+// What study and tune share: the same steps on every rank, with a gate after each, so that all
+// ranks leave together with one exit code and only rank 0 speaks.
+//   read the input -> open the results directory (rank 0) -> run the references -> hand out work
+#pragma once
+
+#include <spdlog/logger.h>
+
+#include <functional>
+#include <memory>
+
+#include "study/cli/input.h"
+#include "study/cli/study_record.h"
+#include "study/schedule/pool.h"
+
+namespace linkstudy {
+
+// A stop signal or the end of the wall time: everything is written, a later start continues.
+class Interrupted : public std::runtime_error {
+ public:
+  Interrupted() : std::runtime_error("interrupted") {}
+};
+
+// More evaluations failed than are accepted.
+class TooManyFailures : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// Rank 0's side of the work.
+class StudySession {
+ public:
+  StudySession(const CommandLine& line, Evaluator& evaluator, StudyRecord& record, Pool& pool,
+               spdlog::logger& log, std::uint64_t total);
+
+  const CommandLine& line() const { return line_; }
+  const Evaluator& evaluator() const { return evaluator_; }
+  StudyRecord& record() { return record_; }
+  spdlog::logger& log() { return log_; }
+
+  // Evaluates the points that are not in the record yet and records them. Throws Interrupted and
+  // TooManyFailures with everything journalled.
+  void evaluate(const std::vector<Point>& points);
+
+  // From the pool's clock.
+  void tick();
+  void finish_progress();
+  // After a second stop signal: tasks are still running and are not waited for.
+  bool is_abandoned() const { return abandoned_; }
+
+ private:
+  void take(const Point& point, const TaskResult& task);
+  void check_failures();
+
+  const CommandLine& line_;
+  Evaluator& evaluator_;
+  StudyRecord& record_;
+  Pool& pool_;
+  spdlog::logger& log_;
+  std::uint64_t total_;  // 0 where not known beforehand
+  std::uint64_t failures_ = 0;
+  bool abandoned_ = false;
+  Progress progress_;
+  std::string stop_reason_;
+};
+
+// `work` runs on rank 0 and returns the exit code; `total` is 0 where not known beforehand.
+using SessionWork = std::function<int(StudySession& session)>;
+int run_session(const CommandLine& line, StudyKind kind, const SessionWork& work);
+
+// "812 of 1000 done, 3 failed, 185 left"
+std::string counts_text(const StudyRecord& record, std::uint64_t total);
+
+}  // namespace linkstudy

@@ -1,0 +1,126 @@
+#include "study/tune/tune.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "study/cli/exit_code.h"
+#include "study/cli/output.h"
+#include "study/cli/study_end.h"
+#include "study/cli/tuning_group.h"
+#include "study/cli/verbs.h"
+#include "study/tune/write_tuning.h"
+
+namespace linkstudy {
+namespace {
+
+using tuning::Answer;
+using tuning::Request;
+
+// Requests become evaluations with ids in the order asked; what the journal has is not run again,
+// so a tune that is started again takes the same path to the same answers.
+class TuningRun {
+ public:
+  explicit TuningRun(StudySession& session)
+      : session_(session), base_step_(base_step_of(session.evaluator().input())) {}
+
+  std::vector<Answer> evaluate(const std::vector<Request>& requests) {
+    std::vector<Point> points;
+    for (const Request& request : requests) {
+      points.push_back({next_id_++, {request.x.front(), base_step_ * request.step_factor}});
+    }
+    session_.evaluate(points);
+    std::vector<Answer> answers;
+    for (const Point& point : points) answers.push_back(answer_of(point.id));
+    return answers;
+  }
+
+ private:
+  Answer answer_of(std::uint64_t id) const {
+    const Evaluator& evaluator = session_.evaluator();
+    const Evaluation& evaluation = session_.record().evaluations().at(id);
+    Answer answer;
+    answer.id = id;
+    answer.status = evaluation.status;
+    answer.step = std::get<double>(evaluation.point.values.back());
+    answer.h_omega = evaluator.worst(RunNumber::h_omega_max, evaluation.responses);
+    answer.step_limit = evaluator.worst(RunNumber::step_limit, evaluation.responses);
+    if (evaluation.status != Cause::ok) return answer;
+    for (const JudgedError& error : evaluator.judged_errors()) {
+      answer.errors.push_back(evaluation.responses.at(error.response));
+    }
+    return answer;
+  }
+
+  StudySession& session_;
+  double base_step_;
+  std::uint64_t next_id_ = 0;
+};
+
+tuning::TuningProblem make_problem(const Evaluator& evaluator) {
+  tuning::TuningProblem problem;
+  for (const TuneInput& tune : evaluator.input().tune) {
+    problem.variables.push_back({tune.parameter.path, tune.parameter.unit, tune.low, tune.high});
+  }
+  for (const JudgedError& error : evaluator.judged_errors()) {
+    problem.components.push_back({error.name, error.tolerance});
+  }
+  return problem;
+}
+
+tuning::TuningOptions make_options(const StudyInput& input) {
+  tuning::TuningOptions options;
+  options.scan = static_cast<std::size_t>(input.search.scan);
+  options.batch = static_cast<std::size_t>(input.search.batch);
+  options.max_evaluations = static_cast<std::size_t>(input.search.max_evaluations);
+  options.resolution = input.search.resolution;
+  options.delta = input.search.delta;
+  options.seed = input.run.seed;
+  return options;
+}
+
+void require_valid(const StudyInput& input, const tuning::TuningProblem& problem,
+                   const tuning::TuningOptions& options) {
+  Diagnostics diagnostics;
+  for (const Problem& found : tuning::check(problem, options)) {
+    diagnostics.add(make_location(input.file), fmt::format("{}: {}", found.path, found.message),
+                    found.remedy);
+  }
+  throw_if_any(diagnostics);
+}
+
+int print_result(const StudySession& session, const tuning::TuningResult& result,
+                 const std::string& digest) {
+  if (session.line().json) {
+    print_out(tuning::write_json(result, digest) + "\n");
+  } else {
+    print_out(tuning::write_text(result));
+    print_out(fmt::format("results digest: {}\n", digest));
+  }
+  return result.status == tuning::TuningStatus::certified ? kDone : kNotTuned;
+}
+
+int run(StudySession& session) {
+  const StudyInput& input = session.evaluator().input();
+  const tuning::TuningProblem problem = make_problem(session.evaluator());
+  const tuning::TuningOptions options = make_options(input);
+  require_valid(input, problem, options);
+  std::optional<tuning::TuningResult> result;
+  const StudyEnd end = end_study(session, [&] {
+    TuningRun tuning_run(session);
+    result = tuning::tune(problem, options, [&](const std::vector<Request>& requests) {
+      return tuning_run.evaluate(requests);
+    });
+    session.record().set_tuning(slug_of(input.name), tuning::write_json(*result, ""),
+                                make_tuning_group(*result));
+  });
+  return result ? print_result(session, *result, end.digest) : end.code;
+}
+
+}  // namespace
+
+int run_tune(const CommandLine& line) {
+  return run_session(line, StudyKind::tune, run);
+}
+
+}  // namespace linkstudy

@@ -1,0 +1,65 @@
+// From a point of the parameter space to its numbers; the only caller of the engine in study/.
+//   point -> overrides on the base model -> ModelInput -> prepare -> simulate -> responses
+// in every load case, one after the other; the first that fails ends the evaluation with its cause.
+// An invalid model is Cause::invalid_point with the first diagnostic as message, an exception
+// Cause::exception after three attempts. The reference of a load case is run when first needed and
+// kept: every rank runs its own, and all get the same bits.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "study/evaluate/case_result.h"
+#include "study/evaluate/reference_run.h"
+
+namespace linkstudy {
+
+class Evaluator {
+ public:
+  // `first` is a valid point: its model says which signals there are. Problems with signals are
+  // reported at their places; nothing is returned then.
+  static std::unique_ptr<Evaluator> make(StudyInput input, std::vector<Parameter> parameters,
+                                         const std::vector<Value>& first, Diagnostics& diagnostics);
+
+  const StudyInput& input() const { return input_; }
+  const std::vector<Parameter>& parameters() const { return parameters_; }
+  const std::vector<Response>& responses() const { return responses_; }
+  const std::vector<JudgedError>& judged_errors() const { return judged_; }
+  // Largest (or, of step_limit, smallest) value of a run number over the load cases.
+  double worst(RunNumber number, const std::vector<double>& responses) const;
+
+  // Runs what references are missing. Throws ReferenceFailure; of Cause::cancelled when asked to.
+  void run_references(const std::atomic<bool>* cancelled);
+  // Histories of the references, by load case; empty without a reference.
+  std::vector<CaseTraces> reference_traces() const;
+
+  // Longest time of one evaluation, s; 0: no limit.
+  void set_timeout(double seconds) { timeout_s_ = seconds; }
+
+  // Any thread, one at a time.
+  CaseResult evaluate(const std::vector<Value>& point);
+
+ private:
+  Evaluator(StudyInput input, std::vector<Parameter> parameters, StudySignals signals);
+
+  std::vector<Override> overrides_of(const LoadCaseInput& load_case,
+                                     const std::vector<Value>& point) const;
+  const ReferenceRecord* reference(std::size_t load_case, const std::atomic<bool>* cancelled);
+  CaseResult attempt(const std::vector<Value>& point);
+  void run_case(std::size_t load_case, const std::vector<Value>& point, double timeout_s,
+                CaseResult& result);
+
+  StudyInput input_;
+  std::vector<Parameter> parameters_;
+  std::vector<LoadCaseInput> load_cases_;
+  ResponseLayout layout_;
+  std::vector<Response> responses_;
+  std::vector<JudgedError> judged_;
+  double timeout_s_ = 0.0;
+  mutable std::mutex mutex_;
+  std::vector<std::optional<ReferenceRecord>> references_;  // by load case
+};
+
+}  // namespace linkstudy

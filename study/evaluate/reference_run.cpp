@@ -1,0 +1,118 @@
+#include "study/evaluate/reference_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace linkstudy {
+namespace {
+
+ModelInput read_reference(const StudyInput& input, const LoadCaseInput& load_case) {
+  std::vector<Override> set = input.reference->set;
+  set.insert(set.end(), load_case.set.begin(), load_case.set.end());
+  Diagnostics diagnostics;
+  std::optional<ModelInput> model = input.reference->model->with(set, diagnostics);
+  if (model) return std::move(*model);
+  const Diagnostic first = diagnostics.sorted().front();
+  throw ReferenceFailure(Cause::invalid_point, to_string(first));
+}
+
+std::string title_of(const LoadCaseInput& load_case) {
+  return load_case.name.empty()
+             ? "the reference run"
+             : fmt::format("the reference run of load case '{}'", load_case.name);
+}
+
+[[noreturn]] void fail(const LoadCaseInput& load_case, Cause cause, const std::string& message) {
+  throw ReferenceFailure(
+      cause, fmt::format("{} failed ({}): {}", title_of(load_case), name_of(cause), message));
+}
+
+std::vector<Channel> coordinate_channels(const std::vector<Channel>& all) {
+  std::vector<Channel> channels = {time_channel()};
+  for (const Channel& channel : all) {
+    if (channel.quantity == Quantity::q || channel.quantity == Quantity::v) {
+      channels.push_back(channel);
+    }
+  }
+  return channels;
+}
+
+std::vector<State<double>> to_states(const Series<double>& series, const Mechanism& mechanism) {
+  std::vector<State<double>> states;
+  const std::size_t n = series.channels.size();
+  for (std::size_t row = 1; row < series.rows(); ++row) {
+    State<double> state = make_state<double>(mechanism);
+    for (std::size_t c = 0; c < n; ++c) {
+      const Channel& channel = series.channels[c];
+      const double value = series.values[row * n + c];
+      const auto index = static_cast<std::size_t>(channel.index);
+      if (channel.quantity == Quantity::time) state.t = value;
+      if (channel.quantity == Quantity::q) state.q[index] = value;
+      if (channel.quantity == Quantity::v) state.v[index] = value;
+    }
+    states.push_back(std::move(state));
+  }
+  return states;
+}
+
+// Series: one per match, the histories, the poses.
+Observers<double> make_observers(const StudySignals& signals, const std::vector<Channel>& all,
+                                 const StepGrid& grid, double output_interval) {
+  Observers<double> observers;
+  for (const std::vector<Channel>& channels : signals.match) {
+    observers.series.push_back({channels, {0, grid.count, 1}, {}});
+  }
+  Series<double> histories{signals.trace, sample_output(grid, output_interval), {}};
+  histories.channels.insert(histories.channels.begin(), time_channel());
+  observers.series.push_back(std::move(histories));
+  const long stride = std::max(1L, grid.count / kReferencePoses);
+  observers.series.push_back({coordinate_channels(all), {0, grid.count, stride}, {}});
+  return observers;
+}
+
+}  // namespace
+
+ReferenceRecord run_reference(const StudyInput& input, const LoadCaseInput& load_case,
+                              const std::atomic<bool>* cancelled) {
+  const ModelInput model = read_reference(input, load_case);
+  Preparation preparation = prepare(model.linkage, model.options);
+  if (preparation.cause != Cause::ok) fail(load_case, preparation.cause, preparation.message);
+  const Mechanism& mechanism = preparation.model.mechanism;
+  const std::vector<Channel> all = list_channels(mechanism);
+  Diagnostics diagnostics;
+  const StudySignals signals = find_reference_signals(input, all, diagnostics);
+  if (!diagnostics.empty()) {
+    fail(load_case, Cause::invalid_point, diagnostics.sorted().front().message);
+  }
+  ReferenceRecord record;
+  record.grid = make_step_grid(model.options);
+  Observers<double> observers =
+      make_observers(signals, all, record.grid, model.options.output_interval);
+  const SimulationOutcome outcome =
+      simulate(mechanism, preparation.model.parameters, preparation.model.start, model.options,
+               observers, RunLimits{0.0, cancelled});
+  if (outcome.cause != Cause::ok) fail(load_case, outcome.cause, outcome.message);
+  record.joints = mechanism.joint_names;
+  record.poses = to_states(observers.series.back(), mechanism);
+  observers.series.pop_back();
+  record.traces = to_traces(observers.series.back());
+  observers.series.pop_back();
+  record.match = std::move(observers.series);
+  return record;
+}
+
+Spectrum find_worst_spectrum(const Preparation& preparation, const ReferenceRecord* reference) {
+  Spectrum worst = preparation.spectrum;
+  const Model& model = preparation.model;
+  if (reference == nullptr || reference->joints != model.mechanism.joint_names) return worst;
+  for (const State<double>& pose : reference->poses) {
+    if (pose.q.size() != model.start.q.size() || pose.v.size() != model.start.v.size()) break;
+    const Spectrum spectrum = compute_spectrum(model, pose);
+    worst.omega_max = std::max(worst.omega_max, spectrum.omega_max);
+    worst.step_limit = std::min(worst.step_limit, spectrum.step_limit);
+  }
+  return worst;
+}
+
+}  // namespace linkstudy

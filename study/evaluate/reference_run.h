@@ -1,0 +1,35 @@
+// The run that [[match]] compares with, and the poses along it at which a case's spectrum is taken.
+#pragma once
+
+#include <atomic>
+#include <stdexcept>
+#include <string>
+
+#include "core/simulation/prepare.h"
+#include "study/metrics/run_metrics.h"
+
+namespace linkstudy {
+
+// The reference itself fails: an error of the whole study, not of its rows.
+class ReferenceFailure : public std::runtime_error {
+ public:
+  ReferenceFailure(Cause cause, const std::string& message)
+      : std::runtime_error(message), cause_(cause) {}
+  Cause cause() const { return cause_; }
+
+ private:
+  Cause cause_;
+};
+
+// Number of poses kept of a reference run.
+inline constexpr long kReferencePoses = 8;
+
+// The reference with these values set (a load case). Throws ReferenceFailure.
+ReferenceRecord run_reference(const StudyInput& input, const LoadCaseInput& load_case,
+                              const std::atomic<bool>* cancelled);
+
+// Spectrum of a prepared case: the highest eigenfrequency and the smallest step limit of its start
+// and of the reference's poses, as far as both have the same joints. Eigenvalues are the start's.
+Spectrum find_worst_spectrum(const Preparation& preparation, const ReferenceRecord* reference);
+
+}  // namespace linkstudy

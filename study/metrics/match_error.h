@@ -1,0 +1,42 @@
+// Relative error of a signal against its reference, per component c, over the instants t of a
+// window on the common grid:
+//   error_max_c = max_t |x_c - r_c| / s_c,       s_c = max(max_t |r_c|, floor max_k max_t |r_k|)
+//   error_rms_c = sqrt(mean_t (x_c - r_c)^2) / s_c,  s_c likewise with root mean squares of r.
+// The floor serves components that are nearly zero throughout: they are scaled by that fraction of
+// the largest component. With scale = "vector" every s_c is max_t |r| (the root mean square of
+// |r|), |r| the length of the vector. Where s_c is zero the error is 0 if nothing differs, else
+// infinite. Both norms are always kept; match.norm says which one is judged.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "study/config/study_input.h"
+#include "study/metrics/reference_record.h"
+
+namespace linkstudy {
+
+class MatchError {
+ public:
+  // Throws InvalidPoint when the two runs share no instants in the window.
+  MatchError(const MatchInput& match, const std::vector<Channel>& channels, const StepGrid& grid,
+             const Series<double>& reference, const StepGrid& reference_grid);
+
+  // The comparison points into this object.
+  Comparison<double> make_comparison() const;
+
+  // error_max of every component, then error_rms of every component.
+  std::vector<double> reduce(const Comparison<double>& comparison) const;
+
+ private:
+  void measure_reference(const MatchInput& match);
+
+  std::vector<Channel> channels_;
+  Sampling sampling_;
+  double sign_;
+  std::vector<double> reference_;  // (samples, channels)
+  std::vector<double> max_scale_;  // (channels)
+  std::vector<double> rms_scale_;  // (channels)
+};
+
+}  // namespace linkstudy

@@ -1,0 +1,22 @@
+// What is kept of a reference run: the matched signals at every step, histories for tables, and a
+// few poses along it.
+#pragma once
+
+#include <vector>
+
+#include "core/model/state.h"
+#include "core/simulation/observers.h"
+#include "core/simulation/simulate.h"
+#include "study/record/evaluation.h"
+
+namespace linkstudy {
+
+struct ReferenceRecord {
+  StepGrid grid{};
+  std::vector<Series<double>> match;  // by [[match]]; every step from 0 on
+  std::vector<Trace> traces;          // time first, every output interval
+  std::vector<std::string> joints;    // that the coordinates of the poses belong to
+  std::vector<State<double>> poses;   // equally spaced, without the start
+};
+
+}  // namespace linkstudy

@@ -1,0 +1,134 @@
+#include "study/metrics/response_list.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace linkstudy {
+namespace {
+
+struct RunNumberText {
+  const char* name;
+  const char* unit;
+  const char* meaning;
+};
+
+constexpr std::array<RunNumberText, kRunNumbers> kTexts = {{
+    {"gap_max", "m", "largest distance between the two points of a closure"},
+    {"drift_max", "", "largest norm of the cut-joint residuals, m and 1"},
+    {"energy_residual_max", "J", "largest residual of the energy ledger"},
+    {"omega_max", "rad/s", "highest eigenfrequency at the start and along the reference"},
+    {"step_limit", "s", "largest stable step of RK4 at the start and along the reference"},
+    {"h_omega_max", "", "step times highest eigenfrequency"},
+    {"steps", "", "accepted steps"},
+    {"end_time", "s", "time reached"},
+}};
+
+std::string to_name(std::string text) {
+  std::ranges::replace(text, '.', '_');
+  return text;
+}
+
+// The part of a channel's name that its group does not have: "x" of "closure.S.force.x".
+std::string component_of(const std::string& channel, const std::string& group) {
+  return channel.size() > group.size() ? channel.substr(group.size()) : std::string();
+}
+
+class Lister {
+ public:
+  Lister(const StudyInput& input, const StudySignals& signals) : input_(input), signals_(signals) {}
+
+  std::vector<Response> run() {
+    for (const LoadCaseInput& load_case : load_cases_of(input_)) add_case(load_case.name);
+    return std::move(responses_);
+  }
+
+ private:
+  void add_case(const std::string& load_case) {
+    prefix_ = load_case.empty() ? "" : load_case + "_";
+    for (std::size_t i = 0; i < input_.match.size(); ++i) {
+      add_errors("max", "largest relative error of", i);
+      add_errors("rms", "root-mean-square relative error of", i);
+    }
+    for (std::size_t i = 0; i < input_.response.size(); ++i) add_response(i);
+    for (const RunNumberText& text : kTexts) add(text.name, text.unit, text.meaning);
+  }
+
+  void add_errors(const char* norm, const char* meaning, std::size_t i) {
+    for (const Channel& channel : signals_.match[i]) {
+      add(fmt::format("error_{}_{}", norm, to_name(channel.name)), "1",
+          fmt::format("{} {}", meaning, channel.name));
+    }
+  }
+
+  void add_response(std::size_t i) {
+    constexpr std::array kReductions = {"max", "min", "max_abs", "rms", "mean", "last"};
+    const ResponseInput& response = input_.response[i];
+    for (const Channel& channel : signals_.response[i]) {
+      add(response.name + to_name(component_of(channel.name, response.signal)), channel.unit,
+          fmt::format("{} of {}", kReductions[static_cast<std::size_t>(response.reduce)],
+                      channel.name));
+    }
+  }
+
+  // Two matches of one signal (other windows, say) get "_2", "_3".
+  void add(const std::string& name, const std::string& unit, const std::string& meaning) {
+    std::string unique = prefix_ + name;
+    for (int k = 2; is_known(unique); ++k) unique = fmt::format("{}{}_{}", prefix_, name, k);
+    responses_.push_back({unique, unit, meaning});
+  }
+
+  bool is_known(const std::string& name) const {
+    return std::ranges::any_of(responses_, [&](const Response& r) { return r.name == name; });
+  }
+
+  const StudyInput& input_;
+  const StudySignals& signals_;
+  std::string prefix_;
+  std::vector<Response> responses_;
+};
+
+}  // namespace
+
+std::vector<Response> list_responses(const StudyInput& input, const StudySignals& signals) {
+  return Lister(input, signals).run();
+}
+
+std::vector<LoadCaseInput> load_cases_of(const StudyInput& input) {
+  if (input.load_case.empty()) return {LoadCaseInput{}};
+  return input.load_case;
+}
+
+ResponseLayout layout_of(const StudySignals& signals) {
+  ResponseLayout layout;
+  for (const auto& channels : signals.match) {
+    layout.match.push_back(layout.width);
+    layout.width += 2 * channels.size();
+  }
+  for (const auto& channels : signals.response) layout.width += channels.size();
+  layout.always = layout.width;
+  layout.width += kRunNumbers;
+  return layout;
+}
+
+std::vector<JudgedError> list_judged_errors(const StudyInput& input, const StudySignals& signals) {
+  std::vector<JudgedError> errors;
+  const ResponseLayout layout = layout_of(signals);
+  std::size_t first = 0;
+  for (const LoadCaseInput& load_case : load_cases_of(input)) {
+    const std::string prefix = load_case.name.empty() ? "" : load_case.name + ".";
+    for (std::size_t i = 0; i < input.match.size(); ++i) {
+      const std::size_t n = signals.match[i].size();
+      const std::size_t skip = input.match[i].norm == ErrorNorm::rms ? n : 0;
+      for (std::size_t c = 0; c < n; ++c) {
+        errors.push_back({prefix + signals.match[i][c].name, first + layout.match[i] + skip + c,
+                          input.match[i].tolerance});
+      }
+    }
+    first += layout.width;
+  }
+  return errors;
+}
+
+}  // namespace linkstudy

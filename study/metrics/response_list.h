@@ -1,0 +1,48 @@
+// The names, units and meanings of everything an evaluation answers, in the order of
+// RunMetrics::reduce: per load case the errors of every [[match]], every [[response]], and what is
+// always kept. With load cases their names stand in front ("fast_error_max_closure_S_force_x").
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "study/metrics/study_signals.h"
+
+namespace linkstudy {
+
+// What is always kept of a run, in this order.
+enum class RunNumber {
+  gap_max,
+  drift_max,
+  energy_residual_max,
+  omega_max,
+  step_limit,
+  h_omega_max,
+  steps,
+  end_time
+};
+inline constexpr std::size_t kRunNumbers = 8;
+
+std::vector<Response> list_responses(const StudyInput& input, const StudySignals& signals);
+
+// Load cases of a study; one without a name when there are none.
+std::vector<LoadCaseInput> load_cases_of(const StudyInput& input);
+
+// Where the numbers of a load case are in the list.
+struct ResponseLayout {
+  std::size_t width = 0;           // numbers of a load case
+  std::vector<std::size_t> match;  // first number of every match: n max, then n rms
+  std::size_t always = 0;          // first of the RunNumbers
+  std::size_t index_of(RunNumber number) const { return always + static_cast<std::size_t>(number); }
+};
+ResponseLayout layout_of(const StudySignals& signals);
+
+// One error that a tuner judges.
+struct JudgedError {
+  std::string name;          // "closure.S.force.x", the load case in front where there are any
+  std::size_t response = 0;  // in list_responses
+  double tolerance = 0.0;
+};
+std::vector<JudgedError> list_judged_errors(const StudyInput& input, const StudySignals& signals);
+
+}  // namespace linkstudy

@@ -1,0 +1,138 @@
+#include "study/metrics/run_metrics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "study/metrics/common_grid.h"
+
+namespace linkstudy {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+double reduce_channel(const ChannelReduction<double>& r, Reduction how) {
+  const auto seen = static_cast<double>(r.seen);
+  if (r.seen == 0) return kNan;
+  switch (how) {
+    case Reduction::max:
+      return r.max;
+    case Reduction::min:
+      return r.min;
+    case Reduction::max_abs:
+      return std::max(std::abs(r.min), std::abs(r.max));
+    case Reduction::rms:
+      return std::sqrt(r.square / seen);
+    case Reduction::mean:
+      return r.sum / seen;
+    case Reduction::last:
+      break;
+  }
+  return r.last;
+}
+
+}  // namespace
+
+Channel time_channel() {
+  return {"time", "s", Quantity::time, 0, 0};
+}
+
+Sampling sample_output(const StepGrid& grid, double output_interval) {
+  return {0, grid.count, std::max(1L, std::lround(output_interval / grid.h))};
+}
+
+RunMetrics::RunMetrics(const StudyInput& input, const StudySignals& signals,
+                       const SimulationOptions& options, const ReferenceRecord* reference)
+    : grid_(make_step_grid(options)) {
+  for (std::size_t i = 0; i < input.match.size(); ++i) {
+    matches_.emplace_back(input.match[i], signals.match[i], grid_, reference->match[i],
+                          reference->grid);
+    observers_.comparisons.push_back(matches_.back().make_comparison());
+  }
+  add_gaps(signals);
+  add_responses(input, signals);
+  if (signals.trace.empty()) return;
+  has_traces_ = true;
+  Series<double> series;
+  series.channels = signals.trace;
+  series.channels.insert(series.channels.begin(), time_channel());
+  series.sampling = sample_output(grid_, options.output_interval);
+  observers_.series.push_back(std::move(series));
+}
+
+void RunMetrics::add_gaps(const StudySignals& signals) {
+  if (!signals.gaps.empty()) zeros_.assign(static_cast<std::size_t>(grid_.count + 1) * 3, 0.0);
+  for (const std::vector<Channel>& gap : signals.gaps) {
+    Comparison<double> comparison;
+    comparison.channels = gap;
+    comparison.sampling = {0, grid_.count, 1};
+    comparison.reference = zeros_.data();
+    comparison.sign.assign(gap.size(), 1.0);
+    observers_.comparisons.push_back(std::move(comparison));
+  }
+}
+
+void RunMetrics::add_responses(const StudyInput& input, const StudySignals& signals) {
+  for (std::size_t i = 0; i < input.response.size(); ++i) {
+    const ResponseInput& response = input.response[i];
+    for (const Channel& channel : signals.response[i]) {
+      ChannelReduction<double> reduction;
+      reduction.channel = channel;
+      reduction.sampling = sample_window(grid_, 1, response.window);
+      if (!response.window) reduction.sampling.begin = 0;
+      observers_.reductions.push_back(reduction);
+      reductions_.push_back(response.reduce);
+    }
+  }
+}
+
+double RunMetrics::find_gap() const {
+  double gap = 0.0;
+  for (std::size_t i = matches_.size(); i < observers_.comparisons.size(); ++i) {
+    gap = std::max(gap, observers_.comparisons[i].max_vector_error);
+  }
+  return gap;
+}
+
+std::vector<double> RunMetrics::reduce(const SimulationOutcome& outcome,
+                                       const Spectrum& spectrum) const {
+  const bool is_ok = outcome.cause == Cause::ok;
+  std::vector<double> numbers;
+  for (std::size_t i = 0; i < matches_.size(); ++i) {
+    const std::vector<double> errors = matches_[i].reduce(observers_.comparisons[i]);
+    numbers.insert(numbers.end(), errors.begin(), errors.end());
+  }
+  for (std::size_t i = 0; i < reductions_.size(); ++i) {
+    numbers.push_back(reduce_channel(observers_.reductions[i], reductions_[i]));
+  }
+  numbers.push_back(find_gap());
+  numbers.push_back(outcome.drift_max);
+  numbers.push_back(outcome.energy_residual_max);
+  if (!is_ok) std::ranges::fill(numbers, kNan);
+  numbers.push_back(spectrum.omega_max);
+  numbers.push_back(spectrum.step_limit);
+  numbers.push_back(grid_.h * spectrum.omega_max);
+  numbers.push_back(static_cast<double>(outcome.steps));
+  numbers.push_back(outcome.end_time);
+  return numbers;
+}
+
+std::vector<Trace> RunMetrics::traces() const {
+  return has_traces_ ? to_traces(observers_.series.front()) : std::vector<Trace>();
+}
+
+std::vector<Trace> to_traces(const Series<double>& series) {
+  std::vector<Trace> traces;
+  const std::size_t n = series.channels.size();
+  for (std::size_t c = 0; c < n; ++c) {
+    Trace trace{series.channels[c].name, series.channels[c].unit, {}};
+    trace.values.reserve(series.rows());
+    for (std::size_t row = 0; row < series.rows(); ++row) {
+      trace.values.push_back(series.values[row * n + c]);
+    }
+    traces.push_back(std::move(trace));
+  }
+  return traces;
+}
+
+}  // namespace linkstudy

@@ -1,0 +1,50 @@
+// The observers of one run and the numbers it is reduced to.
+#pragma once
+
+#include <deque>
+#include <vector>
+
+#include "core/dynamics/spectrum.h"
+#include "study/metrics/match_error.h"
+#include "study/metrics/response_list.h"
+
+namespace linkstudy {
+
+class RunMetrics {
+ public:
+  // `reference` may be null when nothing is matched. Throws InvalidPoint.
+  RunMetrics(const StudyInput& input, const StudySignals& signals, const SimulationOptions& options,
+             const ReferenceRecord* reference);
+
+  Observers<double>& observers() { return observers_; }
+
+  // One number for each response of a load case (response_list.h). Of a run that failed only what
+  // does not depend on its end is kept, the rest is NaN.
+  std::vector<double> reduce(const SimulationOutcome& outcome, const Spectrum& spectrum) const;
+
+  // Histories asked for, time first; empty when there are none.
+  std::vector<Trace> traces() const;
+
+ private:
+  void add_gaps(const StudySignals& signals);
+  void add_responses(const StudyInput& input, const StudySignals& signals);
+  double find_gap() const;
+
+  StepGrid grid_;
+  std::vector<Reduction> reductions_;  // by reduced channel
+  std::deque<MatchError> matches_;
+  std::vector<double> zeros_;    // what gaps are compared with
+  Observers<double> observers_;  // comparisons: matches, then gaps
+  bool has_traces_ = false;
+};
+
+// Sampling of histories: every output interval, in whole steps.
+Sampling sample_output(const StepGrid& grid, double output_interval);
+
+// A series as histories; `channels` start with time.
+std::vector<Trace> to_traces(const Series<double>& series);
+
+// The channel "time".
+Channel time_channel();
+
+}  // namespace linkstudy

@@ -1,0 +1,104 @@
+#include "study/metrics/study_signals.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/topology/nearest_name.h"
+
+namespace linkstudy {
+namespace {
+
+std::vector<Channel> find_signal(const std::vector<Channel>& channels, const std::string& signal,
+                                 const char* where, const Location& at, Diagnostics& diagnostics) {
+  std::vector<Channel> found = find_channels(channels, signal);
+  if (!found.empty()) return found;
+  std::vector<std::string> names = signal_names(channels);
+  for (const Channel& channel : channels) names.push_back(channel.name);
+  diagnostics.add(at, fmt::format("there is no signal '{}' in {}", signal, where),
+                  fmt::format("nearest: {}", fmt::join(nearest_names(signal, names, 3), ", ")));
+  return {};
+}
+
+void add_once(std::vector<Channel>& all, const std::vector<Channel>& more) {
+  for (const Channel& channel : more) {
+    const bool known =
+        std::ranges::any_of(all, [&](const Channel& other) { return other.name == channel.name; });
+    if (!known && channel.quantity != Quantity::time) all.push_back(channel);
+  }
+}
+
+std::vector<std::vector<Channel>> find_gaps(const std::vector<Channel>& channels) {
+  std::vector<std::vector<Channel>> gaps;
+  for (const Channel& channel : channels) {
+    if (channel.quantity != Quantity::closure_gap) continue;
+    if (channel.component == 0) gaps.emplace_back();
+    gaps.back().push_back(channel);
+  }
+  return gaps;
+}
+
+void check_window(const std::optional<TimeWindow>& window, double end_time, const Location& at,
+                  Diagnostics& diagnostics) {
+  if (!window || window->last <= end_time * (1.0 + 1e-9)) return;
+  diagnostics.add(at,
+                  fmt::format("the window of this signal ends at {:g} s, after the run ({:g} s)",
+                              window->last, end_time),
+                  "shorten the window or raise simulation.end_time");
+}
+
+}  // namespace
+
+StudySignals find_case_signals(const StudyInput& input, const std::vector<Channel>& channels,
+                               Diagnostics& diagnostics) {
+  StudySignals signals;
+  signals.gaps = find_gaps(channels);
+  for (const MatchInput& match : input.match) {
+    signals.match.push_back(
+        find_signal(channels, match.signal, "the model", match.at, diagnostics));
+  }
+  for (const ResponseInput& response : input.response) {
+    signals.response.push_back(
+        find_signal(channels, response.signal, "the model", response.at, diagnostics));
+  }
+  for (const TraceInput& trace : input.trace) {
+    add_once(signals.trace,
+             find_signal(channels, trace.signal, "the model", trace.at, diagnostics));
+  }
+  return signals;
+}
+
+StudySignals find_reference_signals(const StudyInput& input, const std::vector<Channel>& channels,
+                                    Diagnostics& diagnostics) {
+  StudySignals signals;
+  for (const MatchInput& match : input.match) {
+    signals.match.push_back(find_signal(channels, match.reference_signal, "the reference model",
+                                        match.reference_at, diagnostics));
+    add_once(signals.trace, signals.match.back());
+  }
+  for (const TraceInput& trace : input.trace) {
+    add_once(signals.trace, find_channels(channels, trace.signal));
+  }
+  return signals;
+}
+
+void check_signals(const StudyInput& input, const StudySignals& cases,
+                   const StudySignals* reference, double end_time, Diagnostics& diagnostics) {
+  for (std::size_t i = 0; i < input.match.size(); ++i) {
+    const MatchInput& match = input.match[i];
+    check_window(match.window, end_time, match.at, diagnostics);
+    if (reference == nullptr || cases.match[i].empty() || reference->match[i].empty()) continue;
+    const std::size_t own = cases.match[i].size();
+    const std::size_t other = reference->match[i].size();
+    if (own == other) continue;
+    diagnostics.add(match.reference_at,
+                    fmt::format("'{}' has {} components and '{}' of the reference has {}",
+                                match.signal, own, match.reference_signal, other),
+                    "compare groups with groups and single channels with single channels");
+  }
+  for (const ResponseInput& response : input.response) {
+    check_window(response.window, end_time, response.at, diagnostics);
+  }
+}
+
+}  // namespace linkstudy

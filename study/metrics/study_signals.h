@@ -1,0 +1,32 @@
+// The channels that the signals of a study name in one mechanism, and the checks of those names.
+#pragma once
+
+#include <vector>
+
+#include "core/simulation/channels.h"
+#include "study/config/study_input.h"
+
+namespace linkstudy {
+
+struct StudySignals {
+  std::vector<std::vector<Channel>> match;     // by [[match]]
+  std::vector<std::vector<Channel>> response;  // by [[response]]
+  std::vector<Channel> trace;                  // of all [[trace]], once each; not time
+  std::vector<std::vector<Channel>> gaps;      // by closure: x y z
+};
+
+// Signals as they stand, in the case's mechanism. What is not there is reported at its place.
+StudySignals find_case_signals(const StudyInput& input, const std::vector<Channel>& channels,
+                               Diagnostics& diagnostics);
+
+// reference_signal of every match; traces as far as the reference has them, the matched signals
+// included.
+StudySignals find_reference_signals(const StudyInput& input, const std::vector<Channel>& channels,
+                                    Diagnostics& diagnostics);
+
+// A signal and what it is compared with have equally many components; names of responses are not
+// used twice; windows lie in the runs (end times in s).
+void check_signals(const StudyInput& input, const StudySignals& cases,
+                   const StudySignals* reference, double end_time, Diagnostics& diagnostics);
+
+}  // namespace linkstudy
