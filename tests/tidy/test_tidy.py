@@ -142,6 +142,13 @@ class Tidy(unittest.TestCase):
         self.write("tests/table.cpp", f"constexpr int kTable[] = {{\n{rows}}};\nint f() {{ }}\n")
         self.assertEqual([], self.problems())
 
+    def test_a_text_inside_a_function_counts_as_one_line(self):
+        text = 'R"(' + "{ line }\n" * 90 + ')"'
+        self.write("tests/long.cpp", f"int f() {{\n  g({text});\n" + "  g();\n" * 67 + "}\n")
+        self.assertEqual([], self.problems())
+        self.write("tests/long.cpp", f"int f() {{\n  g({text});\n" + "  g();\n" * 68 + "}\n")
+        self.expect("tests/long.cpp", 1, "71")
+
     def test_a_python_function_of_71_lines_is_found(self):
         self.write("tests/long.py", "def f():\n" + "    g()\n" * 70)
         self.expect("tests/long.py", 1, "71")
