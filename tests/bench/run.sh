@@ -1,0 +1,11 @@
+#!/usr/bin/env bash
+# Prints the speed of the step loop as ratios to the trace formulas, with compiler, flags and CPU.
+# usage: tests/bench/run.sh [BUILD_DIRECTORY]      takes about a minute on a built tree
+set -euo pipefail
+top=$(cd "$(dirname "$0")/../.." && pwd)
+build=${1:-$top/build}
+cmake -S "$top" -B "$build" -DCMAKE_BUILD_TYPE=Release >/dev/null
+cmake --build "$build" --target bench_step_loop -j 2 >/dev/null
+grep -m1 'model name' /proc/cpuinfo || true
+grep -E '^CMAKE_CXX_FLAGS_RELEASE|^CMAKE_CXX_COMPILER:' "$build/CMakeCache.txt"
+"$build/tests/bench_step_loop"
