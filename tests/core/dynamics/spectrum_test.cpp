@@ -1,0 +1,127 @@
+// Eigenfrequencies and step limits against closed forms.
+#include "core/dynamics/spectrum.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/mechanisms/pendulum.h"
+#include "tests/mechanisms/rsrrp.h"
+#include "tests/support/engine_probe.h"
+
+namespace linkstudy::testing {
+namespace {
+
+Linkage mass_on_spring(double mass, double stiffness, double damping) {
+  Linkage linkage;
+  linkage.links = {{"mass", mass, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero()}};
+  Joint rail;
+  rail.name = "rail";
+  rail.type = JointType::prismatic;
+  rail.parent = kGround;
+  rail.child = "mass";
+  rail.position = {0.01};
+  linkage.joints = {rail};
+  Closure spring;
+  spring.name = "spring";
+  spring.model = ClosureModel::sde;
+  spring.first.link = "mass";
+  spring.second.link = kGround;
+  spring.sde.stiffness[kZ] = stiffness;
+  spring.sde.damping[kZ] = damping;
+  linkage.closures = {spring};
+  return linkage;
+}
+
+Spectrum spectrum_of(const Linkage& linkage) {
+  const Model model = compile(linkage);
+  return compute_spectrum(model, model.start);
+}
+
+}  // namespace
+
+TEST(Spectrum, A_mass_on_a_spring_swings_at_the_root_of_stiffness_over_mass) {
+  const Spectrum s = spectrum_of(mass_on_spring(2.0, 5e5, 0.0));
+  EXPECT_NEAR(s.omega_max, 500.0, 1e-5);  // differences over 1e-6 m: 1e-10 relative
+  ASSERT_EQ(s.eigenvalues.size(), 2u);
+  EXPECT_NEAR(std::abs(s.eigenvalues[0].imag()), 500.0, 1e-5);
+  EXPECT_NEAR(s.step_limit, std::sqrt(8.0) / 500.0, 1e-6 / 500.0);
+}
+
+TEST(Spectrum, A_damper_moves_the_pair_to_its_ratio) {
+  const double m = 2.0, c = 5e5, zeta = 0.3, w = 500.0;
+  const Spectrum s = spectrum_of(mass_on_spring(m, c, 2 * zeta * std::sqrt(c * m)));
+  for (const std::complex<double>& lambda : s.eigenvalues) {
+    EXPECT_NEAR(lambda.real(), -zeta * w, 1e-4);
+    EXPECT_NEAR(std::abs(lambda.imag()), w * std::sqrt(1 - zeta * zeta), 1e-4);
+  }
+}
+
+TEST(Spectrum, Strong_damping_limits_the_step_by_its_fast_real_eigenvalue) {
+  const double m = 1.0, c = 1e4, b = 1000.0;  // aperiodic
+  const Spectrum s = spectrum_of(mass_on_spring(m, c, b));
+  const double fast = b / (2 * m) + std::sqrt(b * b / (4 * m * m) - c / m);
+  EXPECT_NEAR(s.omega_max, fast, 1e-4);
+  EXPECT_NEAR(s.step_limit * fast, 2.785293563405282, 1e-5);
+}
+
+TEST(Spectrum, An_inverted_pendulum_limits_the_step_by_its_falling_eigenvalue_only) {
+  Linkage linkage = pendulum();
+  linkage.joints[0].position = {M_PI / 2};
+  const Spectrum s = spectrum_of(linkage);
+  EXPECT_NEAR(s.omega_max, std::sqrt(9.81), 1e-6);
+  EXPECT_NEAR(s.step_limit, 2.785293563405282 / std::sqrt(9.81), 1e-6);
+}
+
+TEST(StableStep, The_region_of_Runge_Kutta_ends_where_books_say) {
+  EXPECT_NEAR(stable_step({-1.0, 0.0}), 2.785293563405282, 1e-8);
+  EXPECT_NEAR(stable_step({0.0, 1.0}), 2.0 * std::sqrt(2.0), 1e-7);
+  EXPECT_NEAR(stable_step({0.0, -1.0}), 2.0 * std::sqrt(2.0), 1e-7);
+  EXPECT_NEAR(stable_step({-200.0, 0.0}), 2.785293563405282 / 200.0, 1e-9);
+  EXPECT_TRUE(std::isinf(stable_step({0.0, 0.0})));
+}
+
+TEST(StableStep, Just_below_it_the_method_does_not_grow_and_just_above_it_does) {
+  for (int k = 0; k <= 60; ++k) {
+    const double angle = M_PI / 2 + k * M_PI / 120;
+    const std::complex<double> ray = std::polar(1.0, angle);
+    const double limit = stable_step(ray);
+    const auto growth = [&](double r) {
+      const std::complex<double> z = r * ray;
+      return std::abs(1.0 + z + z * z / 2.0 + z * z * z / 6.0 + z * z * z * z / 24.0);
+    };
+    EXPECT_LE(growth(0.9999 * limit), 1.0 + 1e-9) << angle;
+    EXPECT_GT(growth(1.0001 * limit), 1.0) << angle;
+  }
+}
+
+TEST(StepLimit, A_run_just_below_it_stays_bounded_and_just_above_it_ends_with_a_cause) {
+  for (const double damping : {0.0, 100.0}) {
+    const Linkage linkage = mass_on_spring(1.0, 1e6, damping);
+    const double limit = spectrum_of(linkage).step_limit;
+    const Model model = compile(linkage);
+    const SimulationOutcome below = run(model, steps_of(0.995 * limit, 20.0, 0.01));
+    EXPECT_EQ(below.cause, Cause::ok) << below.message;
+    EXPECT_LT(std::abs(below.final_state.q[0]), 0.011);
+    const SimulationOutcome above = run(model, steps_of(1.02 * limit, 20.0, 0.01));
+    EXPECT_TRUE(above.cause == Cause::diverged || above.cause == Cause::energy_blowup)
+        << name_of(above.cause);
+    EXPECT_GT(above.end_time, 0.0);
+    EXPECT_LT(above.end_time, 20.0);
+    EXPECT_NE(above.message.find("at t = "), std::string::npos) << above.message;
+  }
+}
+
+TEST(StepLimit, The_replaced_linkage_runs_below_its_limit_and_fails_above) {
+  Linkage linkage = rsrrp();
+  linkage.closures[0].model = ClosureModel::sde;
+  linkage.closures[0].sde.damping = {};
+  const double limit = spectrum_of(linkage).step_limit;
+  const Model model = compile(linkage);
+  EXPECT_EQ(run(model, steps_of(0.95 * limit, 0.2, 0.01)).cause, Cause::ok);
+  const SimulationOutcome above = run(model, steps_of(1.1 * limit, 0.5, 0.01));
+  EXPECT_TRUE(above.cause == Cause::diverged || above.cause == Cause::energy_blowup);
+}
+
+}  // namespace linkstudy::testing

@@ -1,0 +1,174 @@
+// Static equilibria against closed forms, and their stability.
+#include "core/dynamics/statics.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "tests/mechanisms/four_bar.h"
+#include "tests/mechanisms/pendulum.h"
+#include "tests/mechanisms/rsrrp.h"
+#include "tests/support/engine_probe.h"
+#include "tests/support/near.h"
+
+namespace linkstudy::testing {
+namespace {
+
+using Eigen::Vector3d;
+
+struct Equilibrium {
+  Model model;
+  State<double> state;
+  StaticsReport report;
+};
+
+Equilibrium equilibrium_of(const Linkage& linkage) {
+  Equilibrium e{compile(linkage), {}, {}};
+  e.state = e.model.start;
+  e.report = solve_statics(e.model, e.state);
+  return e;
+}
+
+Linkage pendulum_at(double angle) {
+  Linkage linkage = pendulum(2.0, 0.5);
+  linkage.joints[0].position = {angle};
+  return linkage;
+}
+
+Linkage hanging_mass(double mass, double stiffness) {
+  Linkage linkage;
+  linkage.gravity = Vector3d(0, 0, -9.81);
+  linkage.links = {{"mass", mass, Vector3d::Zero(), Eigen::Matrix3d::Zero()}};
+  Joint rail;
+  rail.name = "rail";
+  rail.type = JointType::prismatic;
+  rail.parent = kGround;
+  rail.child = "mass";
+  linkage.joints = {rail};
+  Closure spring;
+  spring.name = "spring";
+  spring.model = ClosureModel::sde;
+  spring.first.link = "mass";
+  spring.second.link = kGround;
+  spring.sde.stiffness[kZ] = stiffness;
+  linkage.closures = {spring};
+  return linkage;
+}
+
+// Largest acceleration from rest there: the residual by another route.
+double acceleration_at(const Linkage& linkage, const State<double>& s) {
+  EngineProbe engine(linkage);
+  engine.evaluate_at(s);
+  return engine.qdd().lpNorm<Eigen::Infinity>();
+}
+
+}  // namespace
+
+TEST(Statics, A_pendulum_hangs_straight_down_and_is_stable) {
+  const Linkage linkage = pendulum_at(-M_PI / 2 + 0.7);
+  const Equilibrium e = equilibrium_of(linkage);
+  ASSERT_TRUE(e.report.converged);
+  EXPECT_NEAR(e.state.q[0], -M_PI / 2, 1e-9);
+  EXPECT_EQ(e.report.stability, Stability::stable);
+  EXPECT_NEAR(e.report.smallest_stiffness, 2.0 * 9.81 * 0.5, 1e-6);  // m g L
+  EXPECT_NEAR(e.report.displacement, 0.7, 1e-9);
+  EXPECT_LT(e.report.force_residual, 1e-7);
+  EXPECT_GT(e.report.iterations, 1);
+}
+
+TEST(Statics, An_inverted_pendulum_stands_and_is_unstable) {
+  const Equilibrium e = equilibrium_of(pendulum_at(M_PI / 2 - 0.2));
+  ASSERT_TRUE(e.report.converged);
+  EXPECT_NEAR(e.state.q[0], M_PI / 2, 1e-9);
+  EXPECT_EQ(e.report.stability, Stability::unstable);
+  EXPECT_NEAR(e.report.smallest_stiffness, -2.0 * 9.81 * 0.5, 1e-6);
+}
+
+TEST(Statics, A_pendulum_without_weight_rests_anywhere) {
+  Linkage linkage = pendulum_at(0.3);
+  linkage.gravity = Vector3d(0, 0, -9.81);  // along its axis
+  const Equilibrium e = equilibrium_of(linkage);
+  ASSERT_TRUE(e.report.converged);
+  EXPECT_EQ(e.state.q[0], 0.3);
+  EXPECT_EQ(e.report.stability, Stability::neutral);
+}
+
+TEST(Statics, A_mass_stretches_its_spring_by_its_weight) {
+  const Equilibrium e = equilibrium_of(hanging_mass(2.5, 800.0));
+  ASSERT_TRUE(e.report.converged);
+  EXPECT_NEAR(e.state.q[0], -2.5 * 9.81 / 800.0, 1e-10);
+  EXPECT_EQ(e.report.stability, Stability::stable);
+  EXPECT_NEAR(e.report.smallest_stiffness, 800.0, 1e-4);
+  EngineProbe engine(hanging_mass(2.5, 800.0));
+  engine.evaluate_at(e.state);
+  EXPECT_NEAR(engine.at("closure.spring.force.z"), 2.5 * 9.81, 1e-7);
+}
+
+TEST(Statics, A_falling_mass_has_no_equilibrium_and_keeps_its_state) {
+  const Equilibrium e = equilibrium_of(hanging_mass(2.5, 0.0));
+  EXPECT_FALSE(e.report.converged);
+  EXPECT_NEAR(e.report.force_residual, 2.5 * 9.81, 1e-9);
+  EXPECT_EQ(e.state.q[0], 0.0);
+}
+
+// One freedom: the potential energy along the closed form is stationary there. Found without the
+// engine, by bisection on its slope.
+TEST(Statics, The_cut_linkage_rests_where_its_closed_potential_is_stationary) {
+  Linkage linkage = rsrrp();
+  linkage.joints[0].position = {2.6};
+  const RsrrpPose start = rsrrp_pose(2.6);
+  linkage.joints[1].position = {start.d};
+  linkage.joints[2].position = {start.psi22};
+  linkage.joints[3].position = {start.psi23};
+  const Equilibrium e = equilibrium_of(linkage);
+  ASSERT_TRUE(e.report.converged);
+  EXPECT_EQ(e.report.stability, Stability::stable);
+  // Heights: crank's centre 0.05 cos psi; the coupler's centre halfway between pin and tip.
+  EXPECT_NEAR(std::cos(e.state.q[0]), -1.0, 1e-12) << "all centres are lowest at the bottom";
+  EXPECT_LT(e.report.closure_residual, 1e-9);
+  EXPECT_LT(acceleration_at(linkage, e.state), 1e-5);
+  const RsrrpPose bottom = rsrrp_pose(M_PI);
+  EXPECT_NEAR(e.state.q[1], bottom.d, 1e-8);
+}
+
+TEST(Statics, A_stiff_replacement_rests_where_the_cut_joint_does_with_the_same_force) {
+  Linkage cut = rsrrp();
+  const RsrrpPose start = rsrrp_pose(2.9);
+  for (std::size_t k = 0; k < 4; ++k) {
+    cut.joints[k].position = {std::array{start.psi, start.d, start.psi22, start.psi23}[k]};
+  }
+  Linkage sde = cut;
+  sde.closures[0].model = ClosureModel::sde;
+  const Equilibrium exact = equilibrium_of(cut);
+  ASSERT_TRUE(exact.report.converged);
+  double last = 0.0;
+  for (const double c : {1e5, 1e6}) {
+    sde.closures[0].sde.stiffness = {c, c, c, 0, 0, 0};
+    const Equilibrium soft = equilibrium_of(sde);
+    ASSERT_TRUE(soft.report.converged);
+    EXPECT_EQ(soft.report.stability, exact.report.stability);
+    EngineProbe probe(sde);
+    probe.evaluate_at(soft.state);
+    const Vector3d force = probe.vector("closure.S.force");
+    EXPECT_TRUE(near_relative(force, Vector3d(exact.report.multipliers), 20.0 / c * 100));
+    double apart = 0.0;
+    for (std::size_t k = 0; k < 4; ++k) {
+      apart = std::max(apart, std::abs(soft.state.q[k] - exact.state.q[k]));
+    }
+    EXPECT_LT(apart, 100.0 / c);  // some ten newtons over c, and levers
+    if (last > 0.0) {
+      EXPECT_NEAR(last / apart, 10.0, 0.5);
+    }
+    last = apart;
+  }
+}
+
+TEST(Statics, A_planar_four_bar_with_redundant_rows_finds_its_rest) {
+  const Equilibrium e = equilibrium_of(four_bar());
+  ASSERT_TRUE(e.report.converged);
+  EXPECT_LT(acceleration_at(four_bar(), e.state), 1e-5);
+  EXPECT_LT(e.report.closure_residual, 1e-9);
+}
+
+}  // namespace linkstudy::testing

@@ -1,0 +1,198 @@
+// Assembly: from approximate to closed starts.
+#include "core/kinematics/assembly.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/mechanisms/four_bar.h"
+#include "tests/mechanisms/n_four_bar.h"
+#include "tests/mechanisms/random_linkages.h"
+#include "tests/mechanisms/rsrrp.h"
+#include "tests/mechanisms/spatial_slider_crank.h"
+#include "tests/support/engine_probe.h"
+#include "tests/support/near.h"
+#include "tests/support/trace_formulas.h"
+
+namespace linkstudy::testing {
+namespace {
+
+std::vector<Linkage> mechanisms() {
+  return {rsrrp(),       rsrrp_revolute(),       four_bar(),
+          n_four_bar(2), spatial_slider_crank(), spatial_slider_crank_cut_at_universal()};
+}
+
+// Norm of the closure residual and of J v by the trace formulas.
+struct Openness {
+  double position, velocity;
+};
+Openness openness(const Linkage& linkage, const State<double>& s) {
+  Linkage closed = linkage;
+  for (Closure& c : closed.closures) c.model = ClosureModel::cut;
+  const TraceModel trace = make_trace_model(closed);
+  const auto map = oracle_coordinates(compile(closed).mechanism, trace);
+  Vector q(trace.dof), v(trace.dof);
+  for (std::size_t k = 0; k < map.size(); ++k) {
+    q[map[k]] = s.q[k];
+    v[map[k]] = s.v[k];
+  }
+  const Constraints c = cut_constraints(trace, q, v);
+  return {c.value.norm(), (c.jacobian * v).norm()};
+}
+
+struct Assembled {
+  Model closed;
+  State<double> start;
+  AssemblyReport report;
+};
+Assembled assembled(const Linkage& linkage) {
+  Assembled a{compile_closed(linkage), {}, {}};
+  a.start = a.closed.start;
+  a.report = assemble_start(a.closed, a.start);
+  return a;
+}
+
+// The four-bar with its coupler and rocker mirrored about the diagonal B - D.
+Linkage crossed_four_bar() {
+  const FourBarGeometry g;
+  const FourBarPose open = four_bar_pose(1.0, 5.0, g);
+  const double diagonal = std::atan2(-g.crank * std::sin(1.0), g.ground - g.crank * std::cos(1.0));
+  Linkage linkage = four_bar(g);
+  linkage.joints[1].position = {2 * diagonal - open.coupler - open.crank + 0.05};
+  linkage.joints[2].position = {2 * diagonal - open.rocker - 0.05};
+  return linkage;
+}
+
+}  // namespace
+
+TEST(Assembly, Wrong_starts_close_or_name_the_closure_that_does_not) {
+  int closed = 0, total = 0;
+  for (const Linkage& exact : mechanisms()) {
+    for (std::uint64_t seed = 0; seed < 100; ++seed) {
+      Linkage linkage = exact;
+      shake(linkage, seed, 0.3, 1.0);
+      const double given = openness(linkage, compile(linkage).start).position;
+      const Assembled a = assembled(linkage);
+      const Openness open = openness(linkage, a.start);
+      ++total;
+      EXPECT_NEAR(a.report.residual_given, given, 1e-12);
+      EXPECT_LE(open.position, given + 1e-15) << exact.name << " " << seed << " was worsened";
+      if (a.report.closed) {
+        ++closed;
+        EXPECT_LE(open.position, kClosedTolerance) << exact.name << " " << seed;
+        EXPECT_LE(open.velocity, 1e-7) << exact.name << " " << seed;
+        EXPECT_TRUE(a.report.worst_closure.empty());
+      } else {
+        EXPECT_FALSE(a.report.worst_closure.empty()) << exact.name << " " << seed;
+      }
+    }
+  }
+  EXPECT_GT(closed, total * 95 / 100);
+}
+
+TEST(Assembly, Random_loops_close_from_nearby_with_velocities_they_allow) {
+  for (const JointType type : {JointType::spherical, JointType::revolute, JointType::universal,
+                               JointType::prismatic, JointType::cylindrical, JointType::planar}) {
+    for (std::uint64_t seed = 0; seed < 10; ++seed) {
+      Linkage linkage = random_closed_linkage(seed, type, ClosureModel::sde);
+      shake(linkage, seed, 0.1, 1.0);
+      const Assembled a = assembled(linkage);
+      ASSERT_TRUE(a.report.closed) << linkage.name << static_cast<int>(type);
+      const Openness open = openness(linkage, a.start);
+      EXPECT_LE(open.position, kClosedTolerance);
+      EXPECT_LE(open.velocity, 1e-9);
+    }
+  }
+}
+
+TEST(Assembly, A_closed_start_is_returned_to_the_last_bit) {
+  for (const Linkage& linkage : mechanisms()) {
+    const Assembled a = assembled(linkage);
+    EXPECT_TRUE(a.report.closed) << linkage.name;
+    EXPECT_EQ(a.start.q, a.closed.start.q) << linkage.name;
+    EXPECT_EQ(a.start.v, a.closed.start.v) << linkage.name;
+    EXPECT_EQ(a.report.displacement, 0.0);
+    EXPECT_EQ(a.report.iterations, 0);
+  }
+}
+
+TEST(Assembly, An_assembled_start_assembles_to_itself) {
+  Linkage linkage = rsrrp();
+  shake(linkage, 4, 0.2, 0.5);
+  Assembled a = assembled(linkage);
+  const State<double> once = a.start;
+  assemble_start(a.closed, a.start);
+  EXPECT_EQ(a.start.q, once.q);
+}
+
+TEST(Assembly, Held_joints_keep_position_and_velocity) {
+  for (const Linkage& exact : mechanisms()) {
+    Linkage linkage = exact;
+    linkage.joints[0].position[0] += 0.1;
+    linkage.joints[0].velocity = {0.7};
+    linkage.joints[0].hold = true;
+    const Assembled a = assembled(linkage);
+    ASSERT_TRUE(a.report.closed) << exact.name;
+    const auto q = static_cast<std::size_t>(a.closed.mechanism.bodies[1].q_begin);
+    EXPECT_EQ(a.closed.mechanism.joint_names[1], linkage.joints[0].name);
+    EXPECT_EQ(a.start.q[q], linkage.joints[0].position[0]) << exact.name;
+    EXPECT_EQ(a.start.v[q], 0.7) << exact.name;
+    EXPECT_LE(openness(linkage, a.start).velocity, 1e-9) << exact.name;
+  }
+}
+
+TEST(Assembly, The_two_assembly_modes_of_a_four_bar_are_two_branches) {
+  const Assembled open = assembled(four_bar());
+  Linkage crossed = crossed_four_bar();
+  crossed.joints[0].hold = true;
+  const Assembled other = assembled(crossed);
+  ASSERT_TRUE(open.report.closed);
+  ASSERT_TRUE(other.report.closed);
+  EXPECT_GT(std::abs(other.start.q[2] - open.start.q[2]), 0.5) << "another mode";
+  EXPECT_EQ(open.report.mobility, 1);
+  EXPECT_EQ(open.report.rank, 2);
+  EXPECT_EQ(open.report.rows, 5);
+}
+
+TEST(Assembly, The_branch_of_independent_rows_changes_its_sign_with_the_assembly_mode) {
+  // Out-of-plane freedoms make the five rows of the planar four-bar independent.
+  const auto spatial = [](Linkage linkage) {
+    linkage.joints[1].type = JointType::spherical;
+    linkage.joints[2].type = JointType::cylindrical;
+    linkage.joints[1].position.resize(3, 0.0);
+    linkage.joints[1].velocity.resize(3, 0.0);
+    linkage.joints[2].position.resize(2, 0.0);
+    linkage.joints[2].velocity.resize(2, 0.0);
+    linkage.joints[0].hold = true;
+    return linkage;
+  };
+  const Assembled open = assembled(spatial(four_bar()));
+  const Assembled other = assembled(spatial(crossed_four_bar()));
+  ASSERT_TRUE(open.report.closed && other.report.closed);
+  EXPECT_EQ(open.report.rank, 5);
+  EXPECT_EQ(open.report.dependent, other.report.dependent);
+  EXPECT_NE(open.report.branch, 0);
+  EXPECT_EQ(open.report.branch, -other.report.branch);
+}
+
+TEST(Assembly, A_closure_out_of_reach_fails_by_its_name) {
+  Linkage linkage = n_four_bar(2);
+  linkage.closures[1].second.frame.position.x() = 40.0;  // rod 2 is 1 m long
+  const SimulationOptions options = steps_of(1e-3, 1.0);
+  const Preparation p = prepare(linkage, options);
+  EXPECT_EQ(p.cause, Cause::assembly_failed);
+  EXPECT_EQ(p.assembly.worst_closure, "C2");
+  EXPECT_NE(p.message.find("'C2'"), std::string::npos) << p.message;
+  EXPECT_LE(p.assembly.residual, p.assembly.residual_given);
+}
+
+TEST(Assembly, A_closure_between_held_joints_fails_by_its_name) {
+  Linkage linkage = four_bar();
+  for (Joint& joint : linkage.joints) joint.hold = true;
+  linkage.joints[2].position[0] += 0.01;
+  const Preparation p = prepare(linkage, steps_of(1e-3, 1.0));
+  EXPECT_EQ(p.cause, Cause::assembly_failed);
+  EXPECT_NE(p.message.find("'C'"), std::string::npos) << p.message;
+}
+
+}  // namespace linkstudy::testing

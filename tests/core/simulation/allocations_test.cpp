@@ -1,0 +1,86 @@
+// The step loop allocates nothing: every operator new of this executable is counted.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <new>
+
+#include "tests/mechanisms/four_bar.h"
+#include "tests/mechanisms/rsrrp.h"
+#include "tests/support/engine_probe.h"
+
+namespace {
+long allocations = 0;
+
+void* counted(std::size_t size) {
+  ++allocations;
+  if (void* p = std::malloc(size > 0 ? size : 1)) return p;
+  throw std::bad_alloc();
+}
+}  // namespace
+
+void* operator new(std::size_t size) {
+  return counted(size);
+}
+void* operator new[](std::size_t size) {
+  return counted(size);
+}
+void operator delete(void* p) noexcept {
+  std::free(p);
+}
+void operator delete[](void* p) noexcept {
+  std::free(p);
+}
+void operator delete(void* p, std::size_t) noexcept {
+  std::free(p);
+}
+void operator delete[](void* p, std::size_t) noexcept {
+  std::free(p);
+}
+
+namespace linkstudy::testing {
+namespace {
+
+// Everything observers can ask for, sampled at every step.
+Observers<double> all_channels(const Model& model, long steps) {
+  const std::vector<Channel> all = list_channels(model.mechanism);
+  Observers<double> observers;
+  observers.series.push_back({all, {0, steps, 1}, {}});
+  observers.reductions.push_back({all.back(), {0, steps, 1}});
+  return observers;
+}
+
+long allocations_of(const Model& model, long steps) {
+  Observers<double> observers = all_channels(model, steps);
+  const SimulationOptions options = steps_of(1e-4, 1e-4 * static_cast<double>(steps), 1e-3);
+  const long before = allocations;
+  const SimulationOutcome end =
+      simulate(model.mechanism, model.parameters, model.start, options, observers);
+  const long after = allocations;
+  EXPECT_EQ(end.cause, Cause::ok) << end.message;
+  EXPECT_EQ(end.steps, steps);
+  EXPECT_EQ(observers.series[0].rows(), static_cast<std::size_t>(steps) + 1);
+  return after - before;
+}
+
+}  // namespace
+
+TEST(Allocations, The_counter_counts) {
+  const long before = allocations;
+  const std::vector<double> x(10000, 1.0);
+  EXPECT_EQ(x.back(), 1.0);
+  EXPECT_EQ(allocations, before + 1);
+}
+
+TEST(Allocations, Ten_times_the_steps_allocate_no_more) {
+  Linkage replaced = rsrrp(), projected = rsrrp();
+  replaced.closures[0].model = ClosureModel::sde;
+  projected.closures[0].stabilization = Stabilization::projection;
+  for (const Linkage& linkage : {rsrrp(), replaced, projected, four_bar()}) {
+    const Model model = compile(linkage);
+    const long few = allocations_of(model, 200);
+    EXPECT_GT(few, 0) << "setting up allocates";
+    EXPECT_EQ(allocations_of(model, 2000), few) << linkage.name;
+  }
+}
+
+}  // namespace linkstudy::testing
