@@ -18,7 +18,6 @@ constexpr int kMaxIterations = 100;
 constexpr int kMaxRestarts = 24;
 constexpr double kLongestStep = 0.5;  // rad or m, of one iteration
 constexpr double kPolished = 1e-14;   // residual at which iteration stops
-constexpr double kRankTolerance = 1e-7;
 
 std::vector<int> free_velocities(const Model& model) {
   std::vector<int> free;

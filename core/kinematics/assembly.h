@@ -38,6 +38,9 @@ struct AssemblyReport {
 // Residual below which a start counts as closed, m and 1.
 inline constexpr double kClosedTolerance = 1e-9;
 
+// Singular values of the closure Jacobian below this part of the largest count as zero.
+inline constexpr double kRankTolerance = 1e-7;
+
 // The same linkage with every closure cut, so that its closure equations can be evaluated.
 Model compile_closed(const Linkage& linkage);
 

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "core/dynamics/effective_mass.h"
+#include "core/numerics/rank.h"
 #include "core/simulation/simulate.h"
 
 namespace linkstudy {
@@ -18,6 +19,18 @@ std::string number(double x) {
 void fail(Preparation& p, Cause cause, std::string message) {
   p.cause = cause;
   p.message = std::move(message);
+}
+
+// Replacement joints have no multipliers: only cut joints can be redundant.
+void warn_of_redundancy(Preparation& p) {
+  const ClosureEquations e =
+      compute_closure_equations(p.model.mechanism, p.model.parameters, p.model.start);
+  const int rows = static_cast<int>(e.jacobian.rows());
+  const int rank = numerical_rank(e.jacobian, kRankTolerance).rank;
+  if (rank == rows) return;
+  p.warnings.push_back(std::to_string(rows - rank) + " of " + std::to_string(rows) +
+                       " closure equations are redundant at the start: multipliers are those "
+                       "of least norm, single reactions are not unique");
 }
 
 bool assemble(const Linkage& linkage, Preparation& p) {
@@ -38,11 +51,7 @@ bool assemble(const Linkage& linkage, Preparation& p) {
     p.warnings.push_back("the given start did not lead to a closed pose; used restart " +
                          std::to_string(a.restarts) + ", " + number(a.displacement) + " away");
   }
-  if (a.rank < a.rows) {
-    p.warnings.push_back(std::to_string(a.rows - a.rank) + " of " + std::to_string(a.rows) +
-                         " closure equations are redundant at the start: multipliers are those "
-                         "of least norm, single reactions are not unique");
-  }
+  warn_of_redundancy(p);
   return true;
 }
 
