@@ -47,7 +47,7 @@ double observed_order(const Model& model, double h, double end_time) {
 }
 
 double drift_of(Stabilization stabilization, double h, double end_time) {
-  Linkage linkage = rsrrp();
+  Linkage linkage = spatial_slider_crank();
   linkage.closures[0].stabilization = stabilization;
   const SimulationOutcome end = run(compile(linkage), steps_of(h, end_time));
   EXPECT_EQ(end.cause, Cause::ok) << end.message;
@@ -86,11 +86,16 @@ TEST(EnergyLedger, It_balances_over_long_runs_of_every_mechanism) {
 }
 
 TEST(EnergyLedger, Its_residual_falls_with_the_fourth_power_of_the_step_or_faster) {
-  for (const Linkage& linkage :
-       {rsrrp(), softened(rsrrp()), four_bar(), spatial_slider_crank(), pendulum()}) {
+  // Steps at which the next power of h is small and rounding (1e-13 J) is far away.
+  const std::vector<std::pair<Linkage, double>> all = {{rsrrp(), 4e-3},
+                                                       {softened(rsrrp()), 2.5e-4},
+                                                       {four_bar(), 2e-3},
+                                                       {spatial_slider_crank(), 2e-3},
+                                                       {pendulum(), 1e-2}};
+  for (const auto& [linkage, h] : all) {
     const Model model = compile(linkage);
-    const double coarse = run(model, steps_of(2e-3, 2.0, 1e-2)).energy_residual_max;
-    const double fine = run(model, steps_of(1e-3, 2.0, 1e-2)).energy_residual_max;
+    const double coarse = run(model, steps_of(h, 2.0, 4e-2)).energy_residual_max;
+    const double fine = run(model, steps_of(h / 2, 2.0, 4e-2)).energy_residual_max;
     EXPECT_GT(std::log2(coarse / fine), 3.8) << linkage.name << " " << coarse << " " << fine;
     EXPECT_LT(std::log2(coarse / fine), 6.0) << linkage.name << " " << coarse << " " << fine;
   }
@@ -109,11 +114,11 @@ TEST(EnergyLedger, Random_loaded_linkages_balance_too) {
 }
 
 TEST(Drift, Baumgarte_reduces_it_and_projection_removes_it) {
-  const double none = drift_of(Stabilization::none, 1e-3, 5.0);
-  const double baumgarte = drift_of(Stabilization::baumgarte, 1e-3, 5.0);
-  const double projection = drift_of(Stabilization::projection, 1e-3, 5.0);
-  EXPECT_GT(none, 1e-9);
-  EXPECT_LT(baumgarte, none / 10);
+  const double none = drift_of(Stabilization::none, 1e-3, 15.0);
+  const double baumgarte = drift_of(Stabilization::baumgarte, 1e-3, 15.0);
+  const double projection = drift_of(Stabilization::projection, 1e-3, 15.0);
+  EXPECT_GT(none, 1e-6);
+  EXPECT_LT(baumgarte, none / 100);
   EXPECT_LT(projection, 1e-12);
 }
 
