@@ -49,6 +49,17 @@ std::vector<Channel> choose_channels(const std::vector<Channel>& all,
   return chosen;
 }
 
+// The series of --csv, with every name checked before anything runs.
+Observers<double> choose_series(const CommandLine& line, const ModelInput& input) {
+  Observers<double> observers;
+  if (!line.csv) return observers;
+  const std::vector<Channel> all = list_channels(compile(input.linkage).mechanism);
+  const Sampling sampling =
+      sample_output(make_step_grid(input.options), input.options.output_interval);
+  observers.series.push_back({choose_channels(all, line.signals), sampling, {}});
+  return observers;
+}
+
 // A file that cannot be written is found before the run.
 void require_writable(const std::string& path) {
   if (path == "-") return;
@@ -118,18 +129,12 @@ int run_simulate(const CommandLine& line) {
   if (line.csv) require_writable(*line.csv);
   const ModelInput input = read_model_input(line);
   const auto begin = Clock::now();
+  Observers<double> observers = choose_series(line, input);
   const Preparation preparation = prepare(input.linkage, input.options);
   fmt::print(stderr, "{}", warning_text(preparation));
   print_text(line, preparation_text(line.inputs.front(), input.name, preparation, input.options));
   if (preparation.cause != Cause::ok) {
     return report_unprepared(line, preparation, seconds_since(begin));
-  }
-  Observers<double> observers;
-  if (line.csv) {
-    const std::vector<Channel> all = list_channels(preparation.model.mechanism);
-    const Sampling sampling =
-        sample_output(make_step_grid(input.options), input.options.output_interval);
-    observers.series.push_back({choose_channels(all, line.signals), sampling, {}});
   }
   const SimulationOutcome outcome = run_model(line, preparation, input.options, observers);
   const double wall_s = seconds_since(begin);

@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "study/cli/exit_code.h"
 #include "study/cli/output.h"
 #include "study/cli/verbs.h"
 #include "study/schedule/progress.h"
+#include "study/store/journal.h"
 #include "study/store/status.h"
 
 namespace linkstudy {
@@ -22,12 +24,22 @@ std::string to_json(const StudyStatus& status) {
   return json.dump() + "\n";
 }
 
-std::string to_text(const StudyStatus& status) {
+// A tune does not know beforehand how many evaluations it needs; it is complete with its answer.
+bool is_tuned(const std::string& directory) {
+  const JournalContents contents = read_journal(directory);
+  return std::ranges::any_of(
+      contents.texts, [](const NamedText& text) { return text.name.starts_with("tuning/"); });
+}
+
+std::string state_text(const StudyStatus& status, const std::string& directory) {
+  if (status.running) return "running";
   const std::uint64_t finished = status.done + status.failed_count();
-  std::string text = summary_line("state", status.running            ? "running"
-                                           : status.total == 0       ? "not running"
-                                           : finished < status.total ? "not running, resumable"
-                                                                     : "complete");
+  const bool is_complete = status.total > 0 ? finished >= status.total : is_tuned(directory);
+  return is_complete ? "complete" : "not running, resumable";
+}
+
+std::string to_text(const StudyStatus& status, const std::string& directory) {
+  std::string text = summary_line("state", state_text(status, directory));
   const std::string total = status.total > 0 ? fmt::format(" of {}", status.total) : "";
   text += summary_line("done", fmt::format("{}{}", status.done, total));
   for (const auto& [cause, count] : status.failed) {
@@ -43,7 +55,7 @@ std::string to_text(const StudyStatus& status) {
 
 int run_status(const CommandLine& line) {
   const StudyStatus status = read_status(line.inputs.front());
-  print_out(line.json ? to_json(status) : to_text(status));
+  print_out(line.json ? to_json(status) : to_text(status, line.inputs.front()));
   return kDone;
 }
 

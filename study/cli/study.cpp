@@ -24,6 +24,19 @@ std::string to_json(const StudyEnd& end, const StudyRecord& record) {
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
+// What a reader wants to see first; export has everything.
+ResultsTableOptions choose_columns(const StudySession& session) {
+  const Evaluator& evaluator = session.evaluator();
+  ResultsTableOptions options;
+  options.columns = {"evaluation"};
+  for (const Parameter& p : evaluator.parameters()) options.columns.push_back(p.path);
+  for (const std::size_t i : evaluator.headline_responses()) {
+    options.columns.push_back(evaluator.responses()[i].name);
+  }
+  options.columns.emplace_back("status");
+  return options;
+}
+
 int finish(StudySession& session, StudyEnd end) {
   StudyRecord& record = session.record();
   // A study of which nothing came out is no success, however many failures are accepted.
@@ -37,7 +50,7 @@ int finish(StudySession& session, StudyEnd end) {
     return end.code;
   }
   if (end.code != exit_resumable) {
-    print_out(text_of(results_table(record.results())));
+    print_out(text_of(results_table(record.results(), choose_columns(session))));
     print_out(fmt::format("results digest: {}\n", end.digest));
   }
   return end.code;

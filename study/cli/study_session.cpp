@@ -247,6 +247,11 @@ class Launch {
   std::unique_ptr<StudySession> session_;
 };
 
+// Of a tune, the budget.
+std::uint64_t most_evaluations(const StudyInput& input, std::uint64_t total) {
+  return total > 0 ? total : static_cast<std::uint64_t>(input.search.max_evaluations);
+}
+
 std::size_t failure_limit(const RunOptions& run, std::uint64_t total) {
   if (!run.max_failures) return std::numeric_limits<std::size_t>::max();
   const double share = run.max_failures->is_percent ? static_cast<double>(total) / 100.0 : 1.0;
@@ -272,8 +277,8 @@ StudySession::StudySession(const CommandLine& line, Evaluator& evaluator, StudyR
       log_(log),
       total_(total),
       failures_(record.failure_count()),
-      progress_(*find_progress_mode(line.progress), total, record.evaluations().size(),
-                Clock::now()) {}
+      progress_(*find_progress_mode(line.progress), most_evaluations(evaluator.input(), total),
+                record.evaluations().size(), Clock::now()) {}
 
 void StudySession::evaluate(const std::vector<Point>& points) {
   check_failures();
@@ -331,8 +336,7 @@ void StudySession::check_failures() {
                                       failed->first, name_of(failed->second.status),
                                       failed->second.message));
   }
-  const auto budget = static_cast<std::uint64_t>(evaluator_.input().search.max_evaluations);
-  const std::size_t limit = failure_limit(run, total_ > 0 ? total_ : budget);
+  const std::size_t limit = failure_limit(run, most_evaluations(evaluator_.input(), total_));
   if (failures_ <= limit) return;
   throw TooManyFailures(
       fmt::format("{} evaluations failed, {} are accepted (max_failures)", failures_, limit));

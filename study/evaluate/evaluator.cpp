@@ -106,6 +106,18 @@ Evaluator::Evaluator(StudyInput input, std::vector<Parameter> parameters, StudyS
       judged_(list_judged_errors(input_, signals)),
       references_(load_cases_.size()) {}
 
+std::vector<std::size_t> Evaluator::headline_responses() const {
+  std::vector<std::size_t> indices;
+  for (std::size_t i = 0; i < responses_.size(); ++i) {
+    const std::size_t within = i % layout_.width;
+    const bool is_wanted = within < layout_.always ||
+                           within == layout_.index_of(RunNumber::gap_max) ||
+                           within == layout_.index_of(RunNumber::step_limit);
+    if (is_wanted) indices.push_back(i);
+  }
+  return indices;
+}
+
 double Evaluator::worst(RunNumber number, const std::vector<double>& responses) const {
   double worst = kNan;
   for (std::size_t i = 0; i < load_cases_.size(); ++i) {

@@ -27,6 +27,9 @@ class Evaluator {
   const std::vector<Parameter>& parameters() const { return parameters_; }
   const std::vector<Response>& responses() const { return responses_; }
   const std::vector<JudgedError>& judged_errors() const { return judged_; }
+  // Indices of the responses that a table on a screen shows: errors by both norms, [[response]],
+  // gap, step limit.
+  std::vector<std::size_t> headline_responses() const;
   // Largest (or, of step_limit, smallest) value of a run number over the load cases.
   double worst(RunNumber number, const std::vector<double>& responses) const;
 

@@ -1,0 +1,308 @@
+#include "study/evaluate/evaluator.h"
+
+#include <gmock/gmock.h>
+#include <stdlib.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+namespace linkstudy {
+namespace {
+
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+// A parallelogram: crank, coupler and rocker in the plane z = 0, closed at C.
+constexpr const char* kModel = R"(format = 1
+kind = "model"
+name = "four-bar"
+gravity = [0.0, -9.81, 0.0]
+
+[[link]]
+name = "crank"
+mass = 1.0
+center_of_mass = [0.1, 0.0, 0.0]
+inertia = [1e-3, 4e-3, 4e-3]
+
+[[link]]
+name = "rod"
+mass = 1.0
+center_of_mass = [0.25, 0.0, 0.0]
+inertia = [1e-3, 2e-2, 2e-2]
+
+[[link]]
+name = "rocker"
+mass = 1.0
+center_of_mass = [0.1, 0.0, 0.0]
+inertia = [1e-3, 4e-3, 4e-3]
+
+[[joint]]
+name = "A"
+type = "revolute"
+parent = "ground"
+child = "crank"
+initial = { position = ["60 deg"] }
+
+[[joint]]
+name = "B"
+type = "revolute"
+parent = "crank"
+child = "rod"
+frame = { position = [0.2, 0.0, 0.0] }
+initial = { position = ["-60 deg"] }
+
+[[joint]]
+name = "D"
+type = "revolute"
+parent = "rod"
+child = "rocker"
+frame = { position = [0.5, 0.0, 0.0] }
+initial = { position = ["-120 deg"] }
+
+[[closure]]
+name = "C"
+type = "spherical"
+first = { link = "rocker", position = [0.2, 0.0, 0.0] }
+second = { link = "ground", position = [0.5, 0.0, 0.0] }
+model = "cut"
+sde = { stiffness = 1e5, damping_ratio = 0.7 }
+
+[simulation]
+end_time = 0.1
+step = 1e-3
+)";
+
+constexpr const char* kHead = R"(format = 1
+kind = "study"
+model = "model.toml"
+)";
+
+class Evaluation : public ::testing::Test {
+ protected:
+  Evaluation() {
+    std::string pattern = (fs::temp_directory_path() / "linkstudy_evaluate.XXXXXX").string();
+    directory_ = ::mkdtemp(pattern.data());
+    std::ofstream(directory_ / "model.toml") << kModel;
+  }
+  ~Evaluation() override { fs::remove_all(directory_); }
+
+  std::unique_ptr<Evaluator> make(const std::string& study) {
+    const std::string path = (directory_ / "study.toml").string();
+    std::ofstream(path) << kHead << study;
+    std::optional<StudyInput> input = read_study(path, {}, diagnostics_);
+    if (!input) return nullptr;
+    std::vector<Parameter> parameters;
+    std::vector<Value> first;
+    for (const VaryInput& vary : input->vary) {
+      parameters.push_back(vary.parameter);
+      first.push_back(vary.values.front());
+    }
+    return Evaluator::make(std::move(*input), parameters, first, diagnostics_);
+  }
+
+  static double number(const Evaluator& evaluator, const CaseResult& result,
+                       const std::string& name) {
+    for (std::size_t i = 0; i < evaluator.responses().size(); ++i) {
+      if (evaluator.responses()[i].name == name) return result.responses.at(i);
+    }
+    ADD_FAILURE() << "no response " << name;
+    return std::nan("");
+  }
+
+  std::string said() const { return to_string(diagnostics_); }
+
+  fs::path directory_;
+  Diagnostics diagnostics_;
+};
+
+constexpr const char* kAgainstItself = R"(
+reference = { set = {} }
+[[vary]]
+parameter = "simulation.step"
+values = [1e-3, 5e-4, 3e-4]
+[[match]]
+signal = "closure.C.force"
+tolerance = 0.01
+)";
+
+TEST_F(Evaluation, Of_the_reference_itself_has_no_error_at_all) {
+  const auto evaluator = make(kAgainstItself);
+  ASSERT_TRUE(evaluator) << said();
+  const CaseResult result = evaluator->evaluate({1e-3});
+  EXPECT_EQ(result.status, Cause::ok) << result.message;
+  for (const char* axis : {"x", "y", "z"}) {
+    EXPECT_EQ(number(*evaluator, result, std::string("error_max_closure_C_force_") + axis), 0.0);
+    EXPECT_EQ(number(*evaluator, result, std::string("error_rms_closure_C_force_") + axis), 0.0);
+  }
+  EXPECT_EQ(number(*evaluator, result, "steps"), 100.0);
+  EXPECT_DOUBLE_EQ(number(*evaluator, result, "end_time"), 0.1);
+}
+
+TEST_F(Evaluation, Against_a_turned_signal_is_off_by_twice_its_size) {
+  const auto evaluator =
+      make(std::string(kAgainstItself) + "reference_signal = \"-closure.C.force\"\n");
+  ASSERT_TRUE(evaluator) << said();
+  const CaseResult result = evaluator->evaluate({1e-3});
+  EXPECT_DOUBLE_EQ(number(*evaluator, result, "error_max_closure_C_force_y"), 2.0);
+  EXPECT_DOUBLE_EQ(number(*evaluator, result, "error_rms_closure_C_force_y"), 2.0);
+}
+
+TEST_F(Evaluation, At_half_the_step_differs_by_the_order_of_RK4_only) {
+  const auto evaluator = make(kAgainstItself);
+  ASSERT_TRUE(evaluator) << said();
+  const CaseResult half = evaluator->evaluate({5e-4});
+  EXPECT_GT(number(*evaluator, half, "error_max_closure_C_force_y"), 0.0);
+  EXPECT_LT(number(*evaluator, half, "error_max_closure_C_force_y"), 1e-6);
+}
+
+TEST_F(Evaluation, Without_a_common_time_grid_is_an_invalid_point) {
+  const auto evaluator = make(kAgainstItself);
+  ASSERT_TRUE(evaluator) << said();
+  const CaseResult result = evaluator->evaluate({0.1 / 1009});  // 1009 is prime and over the limit
+  EXPECT_EQ(result.status, Cause::invalid_point);
+  EXPECT_THAT(result.message, HasSubstr("no common time grid"));
+  EXPECT_EQ(result.responses.size(), evaluator->responses().size());
+}
+
+TEST_F(Evaluation, Of_an_impossible_value_is_an_invalid_point_with_its_reason) {
+  const auto evaluator = make("[[vary]]\nparameter = \"link.rod.mass\"\nvalues = [1.0]\n");
+  ASSERT_TRUE(evaluator) << said();
+  const CaseResult result = evaluator->evaluate({-1.0});
+  EXPECT_EQ(result.status, Cause::invalid_point);
+  EXPECT_THAT(result.message, HasSubstr("mass must be positive"));
+}
+
+TEST_F(Evaluation, Is_the_same_to_the_last_bit_when_repeated) {
+  const auto evaluator = make(kAgainstItself);
+  ASSERT_TRUE(evaluator) << said();
+  EXPECT_EQ(encode_result(evaluator->evaluate({5e-4})), encode_result(evaluator->evaluate({5e-4})));
+}
+
+constexpr const char* kTwoLoads = R"(
+reference = { set = { "closure.C.model" = "cut" } }
+base = { set = { "closure.C.model" = "sde" } }
+[[vary]]
+parameter = "closure.C.sde.stiffness"
+values = [1e5]
+[[match]]
+signal = "closure.C.force"
+norm = "rms"
+tolerance = 0.01
+[[response]]
+name = "speed"
+signal = "joint.A.v"
+reduce = "last"
+[[trace]]
+signals = ["joint.A.v"]
+[[load_case]]
+name = "light"
+[[load_case]]
+name = "heavy"
+set = { "link.rod.mass" = 10.0 }
+)";
+
+TEST_F(Evaluation, Answers_every_load_case_under_its_name) {
+  const auto evaluator = make(kTwoLoads);
+  ASSERT_TRUE(evaluator) << said();
+  const CaseResult result = evaluator->evaluate({1e5});
+  ASSERT_EQ(result.status, Cause::ok) << result.message;
+  const double light = number(*evaluator, result, "light_gap_max");
+  const double heavy = number(*evaluator, result, "heavy_gap_max");
+  EXPECT_GT(light, 0.0);
+  EXPECT_GT(heavy, 3.0 * light);  // ten times the rod on the same spring
+  ASSERT_EQ(evaluator->judged_errors().size(), 6u);
+  EXPECT_EQ(evaluator->judged_errors()[3].name, "heavy.closure.C.force.x");
+  const std::size_t index = evaluator->judged_errors()[4].response;
+  EXPECT_EQ(evaluator->responses()[index].name, "heavy_error_rms_closure_C_force_y");
+  EXPECT_EQ(evaluator->worst(RunNumber::omega_max, result.responses),
+            std::max(number(*evaluator, result, "light_omega_max"),
+                     number(*evaluator, result, "heavy_omega_max")));
+  EXPECT_EQ(evaluator->worst(RunNumber::step_limit, result.responses),
+            std::min(number(*evaluator, result, "light_step_limit"),
+                     number(*evaluator, result, "heavy_step_limit")));
+}
+
+TEST_F(Evaluation, Keeps_traces_that_end_with_the_last_response) {
+  const auto evaluator = make(kTwoLoads);
+  ASSERT_TRUE(evaluator) << said();
+  const CaseResult result = evaluator->evaluate({1e5});
+  ASSERT_EQ(result.traces.size(), 2u);
+  EXPECT_EQ(result.traces[1].load_case, "heavy");
+  const std::vector<Trace>& traces = result.traces[1].traces;
+  ASSERT_EQ(traces.size(), 2u);
+  EXPECT_EQ(traces[0].name, "time");
+  EXPECT_DOUBLE_EQ(traces[0].values.back(), 0.1);
+  EXPECT_EQ(traces[1].values.back(), number(*evaluator, result, "heavy_speed"));
+  evaluator->run_references(nullptr);
+  EXPECT_EQ(evaluator->reference_traces().size(), 2u);
+}
+
+TEST_F(Evaluation, Names_the_load_case_that_failed_and_keeps_what_is_known) {
+  const auto evaluator = make(kTwoLoads);
+  ASSERT_TRUE(evaluator) << said();
+  const CaseResult result = evaluator->evaluate({1e12});
+  EXPECT_NE(result.status, Cause::ok);
+  EXPECT_THAT(result.message, HasSubstr("load case 'light'"));
+  EXPECT_TRUE(std::isnan(number(*evaluator, result, "light_error_max_closure_C_force_x")));
+  EXPECT_LT(number(*evaluator, result, "light_step_limit"), 1e-3);
+  EXPECT_TRUE(std::isnan(number(*evaluator, result, "heavy_step_limit")));
+}
+
+TEST_F(Evaluation, Ends_at_its_time_limit) {
+  const auto evaluator = make(
+      "base = { set = { gravity = [0.0, 0.0, 0.0] } }\n"
+      "[[vary]]\nparameter = \"simulation.end_time\"\nvalues = [1e5]\n");
+  ASSERT_TRUE(evaluator) << said();
+  evaluator->set_timeout(0.05);
+  const CaseResult result = evaluator->evaluate({1e5});
+  EXPECT_EQ(result.status, Cause::timeout) << result.message;
+}
+
+TEST_F(Evaluation, Stops_the_study_when_the_reference_fails) {
+  const auto evaluator = make(R"(
+reference = { set = { "closure.C.model" = "sde", "closure.C.sde.stiffness" = 1e12 } }
+[[vary]]
+parameter = "link.rod.mass"
+values = [1.0]
+[[match]]
+signal = "closure.C.force"
+tolerance = 0.01
+)");
+  ASSERT_TRUE(evaluator) << said();
+  try {
+    evaluator->run_references(nullptr);
+    FAIL() << "the reference runs";
+  } catch (const ReferenceFailure& failure) {
+    EXPECT_THAT(failure.what(), HasSubstr("the reference run failed"));
+  }
+}
+
+TEST_F(Evaluation, Reports_unknown_signals_at_their_place_with_the_nearest) {
+  EXPECT_FALSE(
+      make("[[vary]]\nparameter = \"link.rod.mass\"\nvalues = [1.0]\n"
+           "[[response]]\nname = \"f\"\nsignal = \"closure.C.fors\"\nreduce = \"max\"\n"));
+  EXPECT_THAT(said(), HasSubstr("study.toml:9:10: error: there is no signal 'closure.C.fors'"));
+  EXPECT_THAT(said(), HasSubstr("closure.C.force"));
+}
+
+TEST(CaseBytes, Come_back_as_they_went) {
+  const Point point{7, {1.5, std::string("cut"), -0.0}};
+  const Point read = decode_point(encode_point(point));
+  EXPECT_EQ(read.id, 7u);
+  EXPECT_EQ(read.values, point.values);
+  CaseResult result;
+  result.status = Cause::diverged;
+  result.message = "diverged at t = 1 s";
+  result.responses = {1.0, std::nan(""), 3.0};
+  result.traces = {{"fast", {{"time", "s", {0.0, 1.0}}, {"joint.A.q", "rad", {2.0, 3.0}}}}};
+  result.attempts = 2;
+  result.host = "n1";
+  const std::string bytes = encode_result(result);
+  EXPECT_EQ(encode_result(decode_result(bytes)), bytes);
+  EXPECT_EQ(decode_result(bytes).traces[0].traces[1].values[1], 3.0);
+  EXPECT_THROW(decode_result(bytes.substr(0, bytes.size() - 3)), std::out_of_range);
+}
+
+}  // namespace
+}  // namespace linkstudy
