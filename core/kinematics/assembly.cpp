@@ -63,7 +63,7 @@ Closing close_loops(const Model& model, const std::vector<int>& free, State<doub
   double residual = e.residual.norm();
   double mu = 0.0;
   int iteration = 0;
-  for (; iteration < kMaxIterations && residual > kPolished; ++iteration) {
+  for (; !free.empty() && iteration < kMaxIterations && residual > kPolished; ++iteration) {
     VectorXd x = damped_step(columns_of(e.jacobian, free), e.residual, mu);
     const double longest = x.lpNorm<Eigen::Infinity>();
     if (longest > kLongestStep) x *= kLongestStep / longest;
@@ -160,8 +160,8 @@ void assemble_velocities(const Model& model, const MatrixXd& jacobian, State<dou
   Eigen::Map<VectorXd> v(s.v.data(), model.mechanism.nv);
   const VectorXd rate = jacobian * v;
   const double scale = std::max(1.0, v.lpNorm<Eigen::Infinity>());
-  if (rate.norm() <= kClosedTolerance * scale) {
-    report.velocity_residual = rate.norm();
+  if (free.empty() || rate.norm() <= kClosedTolerance * scale) {
+    report.velocity_residual = rate.norm() / scale;
     return;
   }
   Eigen::CompleteOrthogonalDecomposition<MatrixXd> j(columns_of(jacobian, free));

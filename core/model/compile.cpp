@@ -396,7 +396,8 @@ class Compiler {
       const Eigen::Vector3d e = load.direction.normalized();
       p.direction = to_vec3(load.follows_link ? Eigen::Vector3d(f.rotation * e) : e);
     }
-    if (s.course == CourseShape::table) add_table(load.course, s, p);
+    const bool has_course = load.type != LoadType::resistance;
+    if (has_course && s.course == CourseShape::table) add_table(load.course, s, p);
     m.loads.push_back(s);
     parameters().loads.push_back(p);
   }
