@@ -349,6 +349,7 @@ void StudySession::tick() {
 }
 
 void StudySession::finish_progress() {
+  if (total_ == 0) return;  // a tune ends below its budget: "25 %, 1 min left" would mislead
   progress_.finish(Clock::now());
 }
 
