@@ -15,8 +15,9 @@
 
 namespace linkstudy {
 
-// A row is dependent when its pivot in J M^-1 J^T falls below this part of its diagonal: rows that
-// differ by less than 1e-5 in direction.
+// A row is dependent when its pivot in J M^-1 J^T falls below this part of the largest diagonal: a
+// row that vanishes up to rounding has a diagonal of the same rounding and must not vouch for
+// itself.
 inline constexpr double kDependentRow = 1e-10;
 
 // Rows of J of one closure, zero off its support.

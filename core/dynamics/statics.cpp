@@ -103,6 +103,10 @@ double rounding_floor(const Model& model) {
 
 void judge_stability(const Model& model, const State<double>& s, const VectorXd& lambda,
                      Workspace<double>& w, StaticsReport& report) {
+  if (model.mechanism.nv == 0) {
+    report.stability = Stability::stable;  // a structure: nothing can move
+    return;
+  }
   const Balance b = compute_balance(model, s, w);
   MatrixXd k = -force_gradient(model, s, lambda, w);
   k = 0.5 * (k + k.transpose()).eval();

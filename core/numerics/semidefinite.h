@@ -1,7 +1,7 @@
 // Linear systems with a symmetric positive semidefinite matrix A, (n, n) row by row, lower triangle
 // used. A = L D L^T without pivoting, L unit lower; a column whose pivot falls below `tolerance`
-// times the diagonal of A belongs to a dependent row and becomes zero. If any was dropped the
-// solution is the one of least norm: with C = L sqrt(D), x = C (C^T C)^-2 C^T b; least squares
+// times the largest diagonal of A belongs to a dependent row and becomes zero. If any was dropped
+// the solution is the one of least norm: with C = L sqrt(D), x = C (C^T C)^-2 C^T b; least squares
 // where b is not in the range.
 #pragma once
 
@@ -17,9 +17,11 @@ template <class Size, class Real>
 inline bool factorize_semidefinite(Size n, Real tolerance, Real* a, Real* inverse) {
   bool dropped = false;
   const Real zero(0.0), one(1.0);
+  Real largest(0.0);
+  for (int j = 0; j < n; ++j) largest = max(largest, a[j * n + j]);
+  const Real limit = tolerance * largest;
   for (int j = 0; j < n; ++j) {
     Real* row_j = a + j * n;
-    const Real limit = tolerance * row_j[j];
     Real pivot = row_j[j];
     for (int k = 0; k < j; ++k) pivot = nmadd(row_j[k] * row_j[k], a[k * n + k], pivot);
     const auto keep = pivot > limit;

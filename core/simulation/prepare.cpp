@@ -107,6 +107,11 @@ Preparation prepare(const Linkage& linkage, const SimulationOptions& options) {
   if (options.start == Start::equilibrium) {
     if (!find_equilibrium(p)) return p;
     p.model.start.v = velocities;
+    // Statics moved the pose; velocities must fit the cut joints there. What was reported stays.
+    const Preparation before = p;
+    if (p.model.mechanism.sde_rows.empty() && !assemble(linkage, p)) return p;
+    p.assembly = before.assembly;
+    p.warnings = before.warnings;
   }
   p.spectrum = compute_spectrum(p.model, p.model.start);
   warn_of_step(options, p);
