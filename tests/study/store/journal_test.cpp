@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
+#include <poll.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -326,6 +327,10 @@ TEST_F(JournalFile, Sixty_kills_lose_no_acknowledged_row) {
       append_until_killed(dir_, pipe[1]);
     }
     ::close(pipe[1]);
+    if (kill % 2 == 1) {  // every other kill after an acknowledgement, however slow the disk is
+      pollfd told_something{pipe[0], POLLIN, 0};
+      ASSERT_EQ(::poll(&told_something, 1, 10000), 1);
+    }
     std::this_thread::sleep_for(std::chrono::microseconds(microseconds(random)));
     ::kill(writer, SIGKILL);
     int status = 0;
@@ -344,7 +349,7 @@ TEST_F(JournalFile, Sixty_kills_lose_no_acknowledged_row) {
   }
   const JournalContents contents = read_journal(dir_);
   expect_rows(contents, contents.evaluations.size());
-  EXPECT_GT(told_in_all, kKills / 2) << "the kills came before anything was written";
+  EXPECT_GE(told_in_all, kKills / 2) << "the kills came before anything was written";
 }
 
 }  // namespace
