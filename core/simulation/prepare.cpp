@@ -33,6 +33,13 @@ void warn_of_redundancy(Preparation& p) {
                        "of least norm, single reactions are not unique");
 }
 
+bool accept_velocities(const AssemblyReport& a, Preparation& p) {
+  if (a.velocity_residual <= 1e-6) return true;
+  fail(p, Cause::assembly_failed,
+       "the held velocities do not fit the closures: residual " + number(a.velocity_residual));
+  return false;
+}
+
 bool assemble(const Linkage& linkage, Preparation& p) {
   p.assembly = assemble_start(compile_closed(linkage), p.model.start);
   const AssemblyReport& a = p.assembly;
@@ -42,11 +49,7 @@ bool assemble(const Linkage& linkage, Preparation& p) {
              number(a.residual) + " after " + std::to_string(a.restarts) + " restarts");
     return false;
   }
-  if (a.velocity_residual > 1e-6) {
-    fail(p, Cause::assembly_failed,
-         "the held velocities do not fit the closures: residual " + number(a.velocity_residual));
-    return false;
-  }
+  if (!accept_velocities(a, p)) return false;
   if (a.restarts > 0) {
     p.warnings.push_back("the given start did not lead to a closed pose; used restart " +
                          std::to_string(a.restarts) + ", " + number(a.displacement) + " away");
@@ -107,11 +110,11 @@ Preparation prepare(const Linkage& linkage, const SimulationOptions& options) {
   if (options.start == Start::equilibrium) {
     if (!find_equilibrium(p)) return p;
     p.model.start.v = velocities;
-    // Statics moved the pose; velocities must fit the cut joints there. What was reported stays.
-    const Preparation before = p;
-    if (p.model.mechanism.sde_rows.empty() && !assemble(linkage, p)) return p;
-    p.assembly = before.assembly;
-    p.warnings = before.warnings;
+    // Statics moved the pose, still closed; velocities must fit the cut joints there.
+    if (p.model.mechanism.sde_rows.empty() &&
+        !accept_velocities(assemble_start(compile_closed(linkage), p.model.start), p)) {
+      return p;
+    }
   }
   p.spectrum = compute_spectrum(p.model, p.model.start);
   warn_of_step(options, p);
