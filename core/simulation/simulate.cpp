@@ -54,7 +54,7 @@ class Run {
       if (!accept(step, t)) break;
       observe(observers_, step, now_);
       if (step == grid_.count) break;
-      if (step % kStepsBetweenClockLooks == 0 && interrupted(begin)) break;
+      if (step % kStepsBetweenClockLooks == 0 && interrupted(begin, t)) break;
       rk_.advance(t, grid_.h, y_.data(),
                   [this](double s, const Real* y, Real* slope) { differentiate(s, y, slope); });
       finish_step();
@@ -124,7 +124,8 @@ class Run {
     return fail(Cause::energy_blowup, "energy left the ledger", t);
   }
 
-  bool interrupted(Clock::time_point begin) {
+  bool interrupted(Clock::time_point begin, double t) {
+    if (limits_.reached) limits_.reached->store(t, std::memory_order_relaxed);
     if (limits_.cancelled && limits_.cancelled->load(std::memory_order_relaxed)) {
       outcome_.cause = Cause::cancelled;
       outcome_.message = "cancelled";

@@ -22,6 +22,7 @@ StepGrid make_step_grid(const SimulationOptions& options);
 struct RunLimits {
   double timeout_s = 0.0;                        // wall time of the run, 0: none
   const std::atomic<bool>* cancelled = nullptr;  // checked now and then
+  std::atomic<double>* reached = nullptr;        // s, model time, stored now and then
 };
 
 struct SimulationOutcome {
