@@ -11,6 +11,7 @@
 #include "study/cli/verbs.h"
 #include "study/metrics/run_metrics.h"
 #include "study/report/table.h"
+#include "study/schedule/run_progress.h"
 #include "study/store/file.h"
 
 namespace linkstudy {
@@ -109,8 +110,15 @@ int report_unprepared(const CommandLine& line, const Preparation& preparation, d
 SimulationOutcome run_model(const CommandLine& line, const Preparation& preparation,
                             const SimulationOptions& options, Observers<double>& observers) {
   const Model& model = preparation.model;
-  return simulate(model.mechanism, model.parameters, model.start, options, observers,
-                  RunLimits{line.timeout_s.value_or(0.0), nullptr});
+  std::atomic<double> reached{0.0};
+  const RunWatch watch(*find_progress_mode(line.progress), options.end_time, reached);
+  RunLimits limits;
+  limits.timeout_s = line.timeout_s.value_or(0.0);
+  limits.reached = &reached;
+  const SimulationOutcome outcome =
+      simulate(model.mechanism, model.parameters, model.start, options, observers, limits);
+  reached = outcome.end_time;
+  return outcome;
 }
 
 void write_csv(const CommandLine& line, const Observers<double>& observers) {

@@ -15,17 +15,6 @@ constexpr std::chrono::milliseconds bar_interval{100};
 constexpr std::chrono::seconds line_interval{10};
 constexpr std::size_t bar_cells = 24;
 
-ProgressMode choose_mode(ProgressMode mode) {
-  if (mode != ProgressMode::automatic) return mode;
-  return isatty(STDERR_FILENO) ? ProgressMode::bar : ProgressMode::line;
-}
-
-std::size_t find_terminal_width() {
-  winsize size{};
-  if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col < 20) return 80;
-  return size.ws_col;
-}
-
 // Rounded down: 100 % means all.
 std::size_t percent(const ProgressState& state) {
   if (state.total == 0) return 100;
@@ -67,6 +56,17 @@ std::optional<ProgressMode> find_progress_mode(std::string_view name) {
   return std::nullopt;
 }
 
+ProgressMode choose_progress_mode(ProgressMode mode) {
+  if (mode != ProgressMode::automatic) return mode;
+  return isatty(STDERR_FILENO) ? ProgressMode::bar : ProgressMode::line;
+}
+
+std::size_t find_terminal_width() {
+  winsize size{};
+  if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col < 20) return 80;
+  return size.ws_col;
+}
+
 std::string duration_text(double seconds) {
   if (!(seconds >= 0.0) || seconds > 1e11) return "?";
   if (seconds < 9.95) return fmt::format("{:.1f}s", seconds);
@@ -95,7 +95,8 @@ std::string progress_line(const ProgressState& state) {
 }
 
 Progress::Progress(ProgressMode mode, std::size_t total, std::size_t earlier, Time start)
-    : Progress(choose_mode(mode), total, earlier, start, std::cerr, find_terminal_width()) {}
+    : Progress(choose_progress_mode(mode), total, earlier, start, std::cerr,
+               find_terminal_width()) {}
 
 Progress::Progress(ProgressMode mode, std::size_t total, std::size_t earlier, Time start,
                    std::ostream& stream, std::size_t width)

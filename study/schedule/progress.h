@@ -18,6 +18,12 @@ enum class ProgressMode { automatic, bar, line, none };
 // "auto", "bar", "line", "none".
 std::optional<ProgressMode> find_progress_mode(std::string_view name);
 
+// Automatic becomes a bar where standard error is a terminal, and lines elsewhere.
+ProgressMode choose_progress_mode(ProgressMode mode);
+
+// Of standard error; 80 where it is no terminal.
+std::size_t find_terminal_width();
+
 struct ProgressState {
   std::size_t total = 0;
   std::size_t done = 0;  // failed ones and those of earlier starts included
