@@ -13,7 +13,7 @@ constexpr double kPenalty = 3.0;
 constexpr double kInitialStep = 0.05;  // decades
 using Clock = std::chrono::steady_clock;
 
-// State shared by the objective and the constraints of one NLopt run.
+// State shared by the objective and the constraints of one algorithm.
 class Run {
  public:
   Run(EvaluationLog& log, const std::vector<double>& start, std::size_t budget, nlopt::opt& opt)
@@ -39,8 +39,20 @@ class Run {
     }
   }
 
+  // x_j = start_j * 10^(s_j)
+  std::vector<double> point_of(const std::vector<double>& s) const {
+    std::vector<double> x = start_;
+    for (std::size_t j = 0; j < x.size(); ++j) {
+      const TunedVariable& variable = log_.problem().variables[j];
+      x[j] = std::clamp(start_[j] * std::pow(10.0, s[j]), variable.low, variable.high);
+    }
+    return x;
+  }
+
   std::size_t calls() const { return calls_; }
   const std::string& stopped() const { return stopped_; }
+  // Evaluations or time are used up: another algorithm would have none either.
+  bool is_spent() const { return is_spent_; }
 
  private:
   struct Constraints {
@@ -55,6 +67,7 @@ class Run {
       stop("stopped at the call limit");
     } else if (elapsed.count() > log_.options().confirm_time_s) {
       stop("stopped at the time limit");
+      is_spent_ = true;
     }
   }
 
@@ -82,14 +95,11 @@ class Run {
   }
 
   const Observation* observe(const std::vector<double>& s) {
-    std::vector<double> x = start_;
-    for (std::size_t j = 0; j < x.size(); ++j) {
-      const TunedVariable& variable = log_.problem().variables[j];
-      x[j] = std::clamp(start_[j] * std::pow(10.0, s[j]), variable.low, variable.high);
-    }
+    const std::vector<double> x = point_of(s);
     if (log_.find(x, 1.0) == nullptr) {
       if (budget_ == 0) {
         stop("stopped at the evaluation limit");
+        is_spent_ = true;
         return nullptr;
       }
       --budget_;
@@ -116,8 +126,15 @@ class Run {
   Clock::time_point begin_;
   std::size_t calls_ = 0;
   std::string stopped_;
+  bool is_spent_ = false;
   std::exception_ptr error_;
 };
+
+// Largest g_i of an answer, at most the penalty.
+double find_violation(const Answer& answer, const std::vector<MatchComponent>& components) {
+  const double ratio = compute_ratio(answer, components);
+  return std::isfinite(ratio) ? std::min(std::log10(ratio), kPenalty) : kPenalty;
+}
 
 std::string describe(nlopt::result result) {
   switch (result) {
@@ -125,10 +142,20 @@ std::string describe(nlopt::result result) {
       return "step tolerance reached";
     case nlopt::MAXEVAL_REACHED:
       return "NLopt's own evaluation limit";
+    case nlopt::FTOL_REACHED:
+      return "objective tolerance reached";
     default:
       return "result code " + std::to_string(static_cast<int>(result));
   }
 }
+
+// What an algorithm said in the end.
+struct Claim {
+  std::vector<double> x;
+  bool ended_by_itself = false;
+  bool is_spent = false;
+  std::string ended;
+};
 
 void set_up(nlopt::opt& opt, Run& run, const EvaluationLog& log, const std::vector<double>& start) {
   std::vector<double> low(start.size());
@@ -142,20 +169,90 @@ void set_up(nlopt::opt& opt, Run& run, const EvaluationLog& log, const std::vect
                                  std::vector<double>(log.problem().components.size(), 0.0));
   opt.set_lower_bounds(low);
   opt.set_upper_bounds(high);
-  opt.set_initial_step(kInitialStep);
-  opt.set_xtol_abs(0.5 * log.options().resolution);
-  opt.set_maxeval(static_cast<int>(log.options().confirm_calls));
 }
 
-std::string optimize(nlopt::opt& opt, const Run& run, std::size_t n) {
-  std::vector<double> s(n, 0.0);
+void set_ends(nlopt::opt& opt, const TuningOptions& options) {
+  opt.set_initial_step(kInitialStep);
+  opt.set_xtol_abs(0.5 * options.resolution);
+  opt.set_maxeval(static_cast<int>(options.confirm_calls));
+}
+
+Claim optimize(nlopt::opt& opt, const Run& run, const std::vector<double>& start) {
+  Claim claim;
+  std::vector<double> s(start.size(), 0.0);
   double value = 0.0;
   try {
     const nlopt::result result = opt.optimize(s, value);
-    return run.stopped().empty() ? describe(result) : run.stopped();
+    claim.ended = describe(result);
+    claim.ended_by_itself = result > 0 && result != nlopt::MAXEVAL_REACHED;
   } catch (const std::exception& error) {
-    return run.stopped().empty() ? std::string(error.what()) : run.stopped();
+    claim.ended = error.what();
   }
+  run.rethrow();
+  if (!run.stopped().empty()) {
+    claim.ended = run.stopped();
+    claim.ended_by_itself = false;
+    claim.is_spent = run.is_spent();
+  }
+  claim.x = run.point_of(s);
+  return claim;
+}
+
+// Our own incumbent: the lowest feasible point among the start and what was seen since `first`.
+std::vector<double> find_lowest(const EvaluationLog& log, const std::vector<double>& start,
+                                std::size_t first) {
+  std::vector<double> lowest = start;
+  for (std::size_t i = first; i < log.observations().size(); ++i) {
+    const Observation& seen = log.observations()[i];
+    const bool is_feasible = compute_ratio(seen.answer, log.problem().components) <= 1.0;
+    if (is_feasible && compute_objective(seen.request.x) < compute_objective(lowest)) {
+      lowest = seen.request.x;
+    }
+  }
+  return lowest;
+}
+
+// Why a claim does not verify; empty where it does.
+std::string find_fault(const EvaluationLog& log, const Claim& claim,
+                       const std::vector<double>& lowest) {
+  const double slack = 2.0 * log.options().resolution;
+  const Observation* seen = log.find(claim.x, 1.0);
+  if (!claim.ended_by_itself) return claim.ended;
+  if (seen == nullptr) return "it returned a point it never tried";
+  if (find_violation(seen->answer, log.problem().components) > slack) {
+    return "it returned a point that does not match";
+  }
+  if (compute_objective(claim.x) > compute_objective(lowest) + slack) {
+    return "it returned a point above one that matches";
+  }
+  return {};
+}
+
+Claim run_cobyla(EvaluationLog& log, const std::vector<double>& start, std::size_t budget,
+                 NloptReport& report) {
+  nlopt::opt opt(nlopt::LN_COBYLA, static_cast<unsigned>(start.size()));
+  Run run(log, start, budget, opt);
+  set_up(opt, run, log, start);
+  set_ends(opt, log.options());
+  report.algorithm = "COBYLA";
+  Claim claim = optimize(opt, run, start);
+  report.calls += run.calls();
+  return claim;
+}
+
+Claim run_augmented_lagrangian(EvaluationLog& log, const std::vector<double>& start,
+                               std::size_t budget, NloptReport& report) {
+  nlopt::opt opt(nlopt::LN_AUGLAG, static_cast<unsigned>(start.size()));
+  nlopt::opt inner(nlopt::LN_BOBYQA, static_cast<unsigned>(start.size()));
+  Run run(log, start, budget, opt);
+  set_up(opt, run, log, start);
+  set_ends(opt, log.options());
+  set_ends(inner, log.options());
+  opt.set_local_optimizer(inner);
+  report.algorithm = "AUGLAG with BOBYQA";
+  Claim claim = optimize(opt, run, start);
+  report.calls += run.calls();
+  return claim;
 }
 
 }  // namespace
@@ -163,31 +260,34 @@ std::string optimize(nlopt::opt& opt, const Run& run, std::size_t n) {
 NloptReport confirm_with_nlopt(EvaluationLog& log, const std::vector<double>& start,
                                std::size_t reserve) {
   NloptReport report;
-  const std::size_t available = log.remaining() > reserve ? log.remaining() - reserve : 0;
-  const std::size_t budget = std::min(available, log.options().confirm_evaluations);
-  if (budget == 0) {
+  const std::size_t first = log.observations().size();
+  const auto budget = [&] {
+    const std::size_t available = log.remaining() > reserve ? log.remaining() - reserve : 0;
+    return std::min(available, log.options().confirm_evaluations);
+  };
+  if (budget() == 0) {
     report.ended = "skipped: no evaluations left for it";
     return report;
   }
   nlopt::srand(static_cast<unsigned long>(log.options().seed));
-  nlopt::opt opt(nlopt::LN_COBYLA, static_cast<unsigned>(start.size()));
-  Run run(log, start, budget, opt);
-  set_up(opt, run, log, start);
-  const std::size_t first = log.observations().size();
   report.ran = true;
-  report.algorithm = "COBYLA";
-  report.ended = optimize(opt, run, start.size());
-  run.rethrow();
-  report.calls = run.calls();
-  report.evaluations = log.observations().size() - first;
-  report.lowest = start.front();
-  for (std::size_t i = first; i < log.observations().size(); ++i) {
-    const Observation& seen = log.observations()[i];
-    if (compute_ratio(seen.answer, log.problem().components) <= 1.0) {
-      report.lowest = std::min(report.lowest, seen.request.x.front());
-    }
+  Claim claim = run_cobyla(log, start, budget(), report);
+  std::vector<double> lowest = find_lowest(log, start, first);
+  std::string fault = find_fault(log, claim, lowest);
+  report.ended = claim.ended;
+  if (!fault.empty() && !claim.is_spent && budget() > 0) {
+    report.ended = "COBYLA not verified: " + fault + "; ";
+    claim = run_augmented_lagrangian(log, lowest, budget(), report);
+    lowest = find_lowest(log, start, first);
+    fault = find_fault(log, claim, lowest);
+    report.ended += claim.ended;
   }
-  report.found_lower = std::log10(start.front() / report.lowest) > log.options().resolution;
+  report.verified = fault.empty();
+  if (!report.verified && fault != claim.ended) report.ended += ", not verified: " + fault;
+  report.evaluations = log.observations().size() - first;
+  report.lowest = lowest.front();
+  report.found_lower =
+      compute_objective(start) - compute_objective(lowest) > log.options().resolution;
   return report;
 }
 

@@ -41,7 +41,7 @@ struct TuningOptions {
   double upper_resolution = 2e-2;     // decades, of the upper end of the window
   double delta = 0.02;                // k (1 - delta) must fail for k to count as minimal
   double neighbourhood = 0.1;         // decades around k in which the error must fall
-  std::size_t confirm_evaluations = 16;  // new evaluations NLopt may spend; 0 skips it
+  std::size_t confirm_evaluations = 16;  // new ones for each algorithm of NLopt; 0 skips it
   std::size_t confirm_calls = 400;       // calls of any kind before NLopt is stopped
   // Wall time of NLopt. Finite values make the requests depend on the clock, so it is off unless
   // asked for.

@@ -6,6 +6,7 @@
 namespace linkstudy::tuning {
 namespace {
 
+using testing::decades;
 using testing::SyntheticError;
 
 struct Confirmed {
@@ -57,8 +58,11 @@ TEST(NLopt, Stops_at_our_call_limit) {
   TuningOptions options;
   options.confirm_calls = 6;
   const Confirmed confirmed = confirm(model, 3.0 * model.ends().low, options);
-  EXPECT_LE(confirmed.report.calls, 8U);  // it may finish the pair of calls it is in
-  EXPECT_EQ(confirmed.report.ended, "stopped at the call limit");
+  // Each of the two algorithms may finish the pair of calls it is in.
+  EXPECT_LE(confirmed.report.calls, 16U);
+  EXPECT_FALSE(confirmed.report.verified);
+  EXPECT_TRUE(confirmed.report.ended.ends_with("stopped at the call limit"))
+      << confirmed.report.ended;
 }
 
 TEST(NLopt, Stops_at_our_time_limit) {
@@ -104,6 +108,91 @@ TEST(NLopt, Passes_an_exception_on_as_it_was) {
   });
   log.evaluate({{{3e4}, 1.0, "scan"}});
   EXPECT_THROW(confirm_with_nlopt(log, {3e4}, 0), std::domain_error);
+}
+
+// An error that falls in steps: on a step nothing tells COBYLA which way the boundary lies, and it
+// returns a point below it that does not match.
+SyntheticError make_stairs() {
+  SyntheticError model;
+  model.disturbance = [low = model.ends().low](double c, double) {
+    const double above = decades(c, low);
+    return above - 0.02 * std::floor(above / 0.02);
+  };
+  return model;
+}
+
+TEST(NLopt, Needs_no_second_opinion_where_COBYLA_verifies) {
+  SyntheticError model;
+  for (const double factor : {1.0 + 1e-9, 1.02, 1.5}) {
+    const Confirmed confirmed = confirm(model, factor * model.ends().low);
+    EXPECT_TRUE(confirmed.report.verified) << confirmed.report.ended;
+    EXPECT_EQ(confirmed.report.algorithm, "COBYLA");
+    EXPECT_EQ(confirmed.report.ended, "step tolerance reached");
+  }
+}
+
+TEST(NLopt, Asks_an_augmented_Lagrangian_where_COBYLA_does_not_verify) {
+  SyntheticError model = make_stairs();
+  const double start = model.ends().low * (1.0 + 1e-9);
+  const Confirmed confirmed = confirm(model, start);
+  EXPECT_EQ(confirmed.report.algorithm, "AUGLAG with BOBYQA");
+  EXPECT_TRUE(confirmed.report.ended.starts_with(
+      "COBYLA not verified: it returned a point that does not match; "))
+      << confirmed.report.ended;
+  EXPECT_GT(confirmed.asked, 0U);
+  EXPECT_EQ(confirmed.report.evaluations, confirmed.asked);
+  EXPECT_LE(confirmed.asked, 2 * TuningOptions{}.confirm_evaluations);
+  // The point in hand is the lowest there is, and stays.
+  EXPECT_FALSE(confirmed.report.found_lower);
+  EXPECT_EQ(confirmed.report.lowest, start);
+}
+
+TEST(NLopt, Keeps_the_lowest_match_either_algorithm_has_seen) {
+  SyntheticError model = make_stairs();
+  const double start = 30.0 * model.ends().low;
+  const Confirmed confirmed = confirm(model, start);
+  ASSERT_EQ(confirmed.report.algorithm, "AUGLAG with BOBYQA");
+  double lowest = start;
+  for (const Request& request : model.asked) {
+    const bool matches = compute_ratio(model.answer(request, 0), model.problem().components) <= 1.0;
+    if (matches) lowest = std::min(lowest, request.x.front());
+  }
+  EXPECT_EQ(confirmed.report.lowest, lowest);
+  EXPECT_LT(lowest, 1.2 * model.ends().low);
+  EXPECT_TRUE(confirmed.report.found_lower);
+}
+
+TEST(NLopt, Leaves_COBYLA_unverified_where_the_budget_ends) {
+  SyntheticError model = make_stairs();
+  const double start = model.ends().low * (1.0 + 1e-9);
+  TuningOptions options;
+  EvaluationLog log(model.problem(), options, model.evaluator());
+  log.evaluate({{{start}, 1.0, "scan"}});
+  const NloptReport whole = confirm_with_nlopt(log, {start}, 0);
+  options.max_evaluations = 1 + whole.evaluations / 2;
+  EvaluationLog small(model.problem(), options, model.evaluator());
+  small.evaluate({{{start}, 1.0, "scan"}});
+  const NloptReport cut = confirm_with_nlopt(small, {start}, 0);
+  EXPECT_FALSE(cut.verified);
+  EXPECT_EQ(small.remaining(), 0U);
+  EXPECT_EQ(cut.lowest, start);
+}
+
+TEST(NLopt, Confirms_a_tuning_by_COBYLA_alone_where_that_verifies) {
+  SyntheticError model;
+  const TuningResult result = tune(model.problem(), {}, model.evaluator());
+  EXPECT_EQ(result.status, TuningStatus::certified);
+  EXPECT_TRUE(result.nlopt.verified);
+  EXPECT_EQ(result.nlopt.algorithm, "COBYLA");
+}
+
+// The lowest step of the stairs that matches at half the time step as well.
+TEST(NLopt, Does_not_move_the_answer_of_a_tuning_on_stairs) {
+  SyntheticError model = make_stairs();
+  const TuningResult result = tune(model.problem(), {}, model.evaluator());
+  ASSERT_TRUE(result.window);
+  EXPECT_GE(result.point.front(), model.ends().low);
+  EXPECT_LE(decades(result.point.front(), model.ends().low), 0.02 + 1e-3);
 }
 
 TEST(NLopt, Leaves_the_reserve_of_the_budget_alone) {
