@@ -120,6 +120,11 @@ bool same_values(const Point& a, const Point& b) {
   return encode_point(a) == encode_point(b);
 }
 
+// Of a tune, the budget.
+std::uint64_t most_evaluations(const StudyInput& input, std::uint64_t total) {
+  return total > 0 ? total : static_cast<std::uint64_t>(input.search.max_evaluations);
+}
+
 // The session of one process, step by step.
 class Launch {
  public:
@@ -151,7 +156,8 @@ class Launch {
 
   int open_record() {
     if (!is_first()) return kDone;
-    const StudyIdentity identity = make_identity(line_, *evaluator_, total_, transport_);
+    const StudyIdentity identity = make_identity(
+        line_, *evaluator_, most_evaluations(evaluator_->input(), total_), transport_);
     const std::string directory = directory_of(line_, evaluator_->input());
     record_ = std::make_unique<StudyRecord>(directory, identity, line_.fresh);
     log_ = open_log(line_, *record_);
@@ -246,11 +252,6 @@ class Launch {
   std::shared_ptr<spdlog::logger> log_;  // rank 0
   std::unique_ptr<StudySession> session_;
 };
-
-// Of a tune, the budget.
-std::uint64_t most_evaluations(const StudyInput& input, std::uint64_t total) {
-  return total > 0 ? total : static_cast<std::uint64_t>(input.search.max_evaluations);
-}
 
 std::size_t failure_limit(const RunOptions& run, std::uint64_t total) {
   if (!run.max_failures) return std::numeric_limits<std::size_t>::max();

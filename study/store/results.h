@@ -37,7 +37,7 @@ struct NamedText {
 struct ProvenanceRow {
   std::string event;         // "start", "resume"
   double time_unix_s = 0.0;  // s since 1970-01-01 UTC
-  std::uint64_t total = 0;   // evaluations in the design; 0 where not known beforehand
+  std::uint64_t total = 0;   // evaluations in the design; of a tune the most it may take
   std::uint32_t ranks = 1;
   std::string host;
   std::string program_version;

@@ -15,19 +15,32 @@ double unix_time_s(std::chrono::system_clock::time_point time) {
 
 std::optional<double> time_left(const JournalContents& contents, const StudyStatus& status,
                                 double last_write_unix_s) {
-  const std::uint64_t finished = status.done + status.failed_count();
-  if (status.total == 0) {
-    return std::nullopt;
-  }
-  if (finished >= status.total) {
+  if (status.is_complete) {
     return 0.0;
   }
   if (contents.evaluations_since_start == 0) {
     return std::nullopt;
   }
+  const std::uint64_t finished = std::min(status.done + status.failed_count(), status.total);
   const double elapsed = std::max(0.0, last_write_unix_s - contents.provenance.back().time_unix_s);
   return static_cast<double>(status.total - finished) * elapsed /
          static_cast<double>(contents.evaluations_since_start);
+}
+
+// A tune is complete with its answer; how many evaluations that takes shows only then.
+bool has_answer(const JournalContents& contents) {
+  return std::ranges::any_of(
+      contents.texts, [](const NamedText& text) { return text.name.starts_with("tuning/"); });
+}
+
+void find_total(const JournalContents& contents, StudyStatus& status) {
+  const std::uint64_t finished = status.done + status.failed_count();
+  status.total = contents.provenance.back().total;
+  status.is_tune = contents.description && contents.description->kind == "tune";
+  status.is_complete = status.is_tune ? has_answer(contents) : finished >= status.total;
+  if (status.is_tune && status.is_complete) {
+    status.total = finished;
+  }
 }
 
 }  // namespace
@@ -53,7 +66,7 @@ StudyStatus summarize_status(const JournalContents& contents, double last_write_
   }
   status.last_write_age_s = std::max(0.0, now_unix_s - last_write_unix_s);
   if (!contents.provenance.empty()) {
-    status.total = contents.provenance.back().total;
+    find_total(contents, status);
     status.started_unix_s = contents.provenance.front().time_unix_s;
     status.eta_s = time_left(contents, status, last_write_unix_s);
   }

@@ -12,14 +12,17 @@
 namespace linkstudy {
 
 struct StudyStatus {
-  std::uint64_t total = 0;  // evaluations in the design; 0 where not known beforehand
-  std::uint64_t done = 0;   // ended ok
+  // Evaluations in the design; of a tune its budget, and what it took once it has its answer.
+  std::uint64_t total = 0;
+  bool is_tune = false;
+  bool is_complete = false;
+  std::uint64_t done = 0;  // ended ok
   std::map<Cause, std::uint64_t> failed;
   bool running = false;         // a process holds the journal
   double started_unix_s = 0.0;  // first start
   double last_write_age_s = 0.0;
   // Time left at the rate of the latest start: (total - finished) (t_last_write - t_start) / n,
-  // n the evaluations since that start. Empty before the first one and for an unknown total.
+  // n the evaluations since that start: of a tune the most it can be. Empty before the first one.
   std::optional<double> eta_s;
 
   std::uint64_t failed_count() const;
