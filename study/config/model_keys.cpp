@@ -7,21 +7,7 @@ namespace {
 using enum KeyType;
 using Rows = std::vector<KeyRow>;
 
-void add_general_rows(Rows& rows) {
-  rows.push_back({.path = "format",
-                  .type = integer,
-                  .meaning = "version of the input format: 1",
-                  .range = {.low = 1, .high = 1},
-                  .required = true});
-  rows.push_back({.path = "kind",
-                  .type = word,
-                  .meaning = "what the file describes",
-                  .required = true,
-                  .words = {"model"}});
-  rows.push_back({.path = "name",
-                  .type = text,
-                  .meaning = "title in tables and plots",
-                  .standard = "\"unnamed\""});
+void add_gravity_row(Rows& rows) {
   rows.push_back({.path = "gravity",
                   .type = numbers,
                   .meaning = "acceleration of gravity in the ground frame",
@@ -290,10 +276,28 @@ void add_simulation_rows(Rows& rows) {
 
 }  // namespace
 
+void add_file_rows(Rows& rows, const std::string& kind) {
+  rows.push_back({.path = "format",
+                  .type = integer,
+                  .meaning = "version of the input format: 1",
+                  .range = {.low = 1, .high = 1},
+                  .required = true});
+  rows.push_back({.path = "kind",
+                  .type = word,
+                  .meaning = "what the file describes",
+                  .required = true,
+                  .words = {kind}});
+  rows.push_back({.path = "name",
+                  .type = text,
+                  .meaning = "title in tables and plots",
+                  .standard = "\"unnamed\""});
+}
+
 const std::vector<KeyRow>& model_rows() {
   static const Rows rows = [] {
     Rows all;
-    add_general_rows(all);
+    add_file_rows(all, "model");
+    add_gravity_row(all);
     add_link_rows(all);
     add_joint_rows(all);
     add_closure_rows(all);

@@ -1,4 +1,4 @@
-// Parts of model_rows().
+// Parts of model_rows() and of other tables.
 #pragma once
 
 #include <string>
@@ -7,6 +7,9 @@
 #include "study/config/key.h"
 
 namespace linkstudy {
+
+// format, kind and name, with which every file opens.
+void add_file_rows(std::vector<KeyRow>& rows, const std::string& kind);
 
 // Pose of a frame: a position and one of four ways to say a rotation.
 void add_frame_rows(std::vector<KeyRow>& rows, const std::string& path);

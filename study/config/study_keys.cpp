@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "study/config/key.h"
+#include "study/config/model_keys.h"
 
 namespace linkstudy {
 namespace {
@@ -11,20 +11,7 @@ using enum KeyType;
 using Rows = std::vector<KeyRow>;
 
 void add_head_rows(Rows& rows, const std::string& kind) {
-  rows.push_back({.path = "format",
-                  .type = integer,
-                  .meaning = "version of the input format: 1",
-                  .range = {.low = 1, .high = 1},
-                  .required = true});
-  rows.push_back({.path = "kind",
-                  .type = word,
-                  .meaning = "what the file describes",
-                  .required = true,
-                  .words = {kind}});
-  rows.push_back({.path = "name",
-                  .type = text,
-                  .meaning = "title in tables and plots",
-                  .standard = "\"unnamed\""});
+  add_file_rows(rows, kind);
   rows.push_back({.path = "model",
                   .type = text,
                   .meaning = "model file, relative to this file",
@@ -44,6 +31,22 @@ void add_head_rows(Rows& rows, const std::string& kind) {
                   .type = overrides,
                   .meaning = "model values of every case: path = value",
                   .standard = "{}"});
+}
+
+void add_window_row(Rows& rows, const std::string& path) {
+  rows.push_back({.path = path + ".window",
+                  .type = numbers,
+                  .meaning = "first and last time that count; default: the whole run",
+                  .unit = "s",
+                  .range = kNotNegative,
+                  .counts = {2}});
+}
+
+void add_parameter_row(Rows& rows, const std::string& path) {
+  rows.push_back({.path = path + ".parameter",
+                  .type = text,
+                  .meaning = "path in the model, such as closure.S.sde.stiffness",
+                  .required = true});
 }
 
 void add_match_rows(Rows& rows) {
@@ -72,12 +75,7 @@ void add_match_rows(Rows& rows) {
                   .meaning = "largest relative error that still matches",
                   .range = kPositive,
                   .required = true});
-  rows.push_back({.path = "match.*.window",
-                  .type = numbers,
-                  .meaning = "first and last time that count; default: the whole run",
-                  .unit = "s",
-                  .range = kNotNegative,
-                  .counts = {2}});
+  add_window_row(rows, "match.*");
   rows.push_back({.path = "match.*.floor",
                   .type = number,
                   .meaning =
@@ -98,12 +96,7 @@ void add_output_rows(Rows& rows) {
                   .meaning = "what is kept of its course",
                   .required = true,
                   .words = {"max", "min", "max_abs", "rms", "mean", "last"}});
-  rows.push_back({.path = "response.*.window",
-                  .type = numbers,
-                  .meaning = "first and last time that count; default: the whole run",
-                  .unit = "s",
-                  .range = kNotNegative,
-                  .counts = {2}});
+  add_window_row(rows, "response.*");
   rows.push_back({.path = "trace", .type = tables, .meaning = "time histories kept"});
   rows.push_back(
       {.path = "trace.*.signals", .type = texts, .meaning = "channels", .required = true});
@@ -147,10 +140,7 @@ void add_run_rows(Rows& rows) {
 void add_vary_rows(Rows& rows) {
   rows.push_back(
       {.path = "vary", .type = tables, .meaning = "varied model values", .required = true});
-  rows.push_back({.path = "vary.*.parameter",
-                  .type = text,
-                  .meaning = "path in the model, such as closure.S.sde.stiffness",
-                  .required = true});
+  add_parameter_row(rows, "vary.*");
   rows.push_back({.path = "vary.*.values",
                   .type = scalars,
                   .meaning = "the values: numbers, texts with units, or words",
@@ -202,10 +192,7 @@ void add_tune_rows(Rows& rows) {
                   .type = tables,
                   .meaning = "values whose lowest is wanted",
                   .required = true});
-  rows.push_back({.path = "tune.*.parameter",
-                  .type = text,
-                  .meaning = "path in the model, such as closure.S.sde.stiffness",
-                  .required = true});
+  add_parameter_row(rows, "tune.*");
   rows.push_back(
       {.path = "tune.*.range", .type = table, .meaning = "where to search", .required = true});
   rows.push_back({.path = "tune.*.range.log",
