@@ -39,6 +39,12 @@ const std::vector<Verb>& verbs() {
     std::vector<std::string> tune = run_options();
     tune.insert(tune.begin() + 3, "batch");
     return std::vector<Verb>{
+        {"init",
+         "KIND",
+         1,
+         1,
+         "writes a commented input to start from: model, study or tune",
+         {"output,o", "slurm", "fresh"}},
         {"check", "FILE...", 1, kMany, "validates files; lists all problems in one pass", {"json"}},
         {"describe",
          "[PATH]",
@@ -51,7 +57,7 @@ const std::vector<Verb>& verbs() {
          1,
          1,
          "runs a model once: statics if asked, then time histories",
-         {"set,s", "timeout", "csv", "signals", "json"}},
+         {"set,s", "timeout", "csv", "signals", "progress", "json"}},
         {"statics",
          "MODEL",
          1,
@@ -68,7 +74,7 @@ const std::vector<Verb>& verbs() {
 }
 
 // Verbs that later versions have.
-constexpr std::array kPlanned = {"init", "kinematics", "plan", "converge", "report", "verify"};
+constexpr std::array kPlanned = {"kinematics", "plan", "converge", "report", "verify"};
 
 template <class Type>
 auto optional_value(std::optional<Type>& target) {
@@ -94,7 +100,9 @@ void add_run_options(const std::string& name, CommandLine& line, po::options_des
     out.add_options()("walltime", optional_value(line.walltime_s)->value_name("S"),
                       "end in time, resumable, before S seconds are over (default: from Slurm)");
   } else if (name == "fresh") {
-    out.add_options()("fresh", po::bool_switch(&line.fresh), "overwrite what DIR holds");
+    out.add_options()(
+        "fresh", po::bool_switch(&line.fresh),
+        line.verb == "init" ? "overwrite files that exist" : "overwrite what DIR holds");
   } else if (name == "progress") {
     out.add_options()("progress", po::value(&line.progress)->value_name("HOW"),
                       "auto, bar, line or none");
@@ -106,7 +114,7 @@ void add_run_options(const std::string& name, CommandLine& line, po::options_des
 
 void add_option(const std::string& name, CommandLine& line, po::options_description& out) {
   if (name == "output,o") {
-    const bool is_file = line.verb == "export";
+    const bool is_file = line.verb == "export" || line.verb == "init";
     out.add_options()(name.c_str(),
                       optional_value(line.output)->value_name(is_file ? "FILE" : "DIR"),
                       is_file ? "write to this file" : "results directory");
@@ -120,6 +128,9 @@ void add_option(const std::string& name, CommandLine& line, po::options_descript
   } else if (name == "traces") {
     out.add_options()("traces", po::bool_switch(&line.traces),
                       "time histories, and their differences from the reference");
+  } else if (name == "slurm") {
+    out.add_options()("slurm", po::bool_switch(&line.slurm),
+                      "write a batch script beside FILE as well");
   } else if (name == "csv") {
     out.add_options()("csv", optional_value(line.csv)->value_name("FILE"),
                       "write time histories; - is standard output");

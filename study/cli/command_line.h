@@ -30,6 +30,7 @@ struct CommandLine {
   bool json = false;
   bool markdown = false;
   bool traces = false;
+  bool slurm = false;
   std::string progress = "auto";
   std::string log_level = "info";
   std::optional<std::string> csv;

@@ -20,10 +20,10 @@ struct VerbEntry {
   int (*run)(const CommandLine&);
 };
 
-constexpr VerbEntry kVerbs[] = {{"check", run_check},       {"describe", run_describe},
-                                {"simulate", run_simulate}, {"statics", run_statics},
-                                {"study", run_study},       {"tune", run_tune},
-                                {"status", run_status},     {"export", run_export}};
+constexpr VerbEntry kVerbs[] = {
+    {"init", run_init},         {"check", run_check},     {"describe", run_describe},
+    {"simulate", run_simulate}, {"statics", run_statics}, {"study", run_study},
+    {"tune", run_tune},         {"status", run_status},   {"export", run_export}};
 
 int run_verb(const std::vector<std::string>& arguments) {
   const CommandLine line = parse_command_line(arguments);

@@ -5,6 +5,7 @@
 
 namespace linkstudy {
 
+int run_init(const CommandLine& line);
 int run_check(const CommandLine& line);
 int run_describe(const CommandLine& line);
 int run_simulate(const CommandLine& line);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "core/topology/nearest_name.h"
 #include "study/config/key.h"
@@ -78,6 +79,15 @@ std::string need_text(const KeyRow& row) {
   return row.group.empty() ? "required" : "one required";
 }
 
+// "; kg, > 0", "; max | rms"; empty where there is nothing to say.
+std::string bounds_text(const KeyRow& row) {
+  std::vector<std::string> parts;
+  if (row.words.size() > 1) parts.push_back(fmt::format("{}", fmt::join(row.words, " | ")));
+  if (!row.unit.empty()) parts.push_back(unit_text(row));
+  if (!row.range.is_everything()) parts.push_back(range_symbol(row.range));
+  return parts.empty() ? "" : fmt::format("; {}", fmt::join(parts, ", "));
+}
+
 // "*" stands for a name, or for the position where entries have none.
 bool covers(const std::vector<std::string>& prefix, const std::vector<std::string>& pattern) {
   if (prefix.size() > pattern.size()) return false;
@@ -141,6 +151,16 @@ std::optional<std::string> describe(const std::string& path_prefix) {
   for (const Section& section : sections()) text += section_text(section, prefix);
   if (text.empty()) return std::nullopt;
   return text;
+}
+
+KeyDescription describe_key(const std::string& kind, const std::string& path) {
+  for (const Section& section : sections()) {
+    const auto row = std::ranges::find(section.rows, path, &KeyRow::path);
+    if (kind != section.name || row == section.rows.end()) continue;
+    const std::string last = split_path(path).back();
+    return {fmt::format("{} = {}", last, row->standard), row->meaning + bounds_text(*row)};
+  }
+  throw std::logic_error(fmt::format("there is no key '{}' of kind {}", path, kind));
 }
 
 std::vector<std::string> nearest_keys(const std::string& path_prefix) {

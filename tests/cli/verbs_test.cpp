@@ -14,6 +14,7 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
@@ -127,6 +128,18 @@ TEST_F(Verbs, A_run_that_diverges_is_a_result_with_exit_code_3) {
 
 // Crank up, coupler 60 degrees from the slider's axis, all in the plane x = 0 with the slider free
 // to move along z: the vertical forces of coupler and yoke that the crank bears are its half share.
+TEST_F(Verbs, Simulate_shows_the_model_time_it_has_reached) {
+  const std::string run_of_a_second = "simulate model.toml -s simulation.step=1e-6 --progress ";
+  const Ended bar = run(run_of_a_second + "bar");
+  EXPECT_EQ(bar.code, 0) << bar.err;
+  EXPECT_THAT(bar.err, ::testing::ContainsRegex("\r\\[#+-+\\] 0\\.[0-9]+ of 0\\.2 s"));
+  EXPECT_THAT(bar.err, HasSubstr("100%"));
+  for (const char* silent : {"none", "line", "auto"}) {
+    EXPECT_THAT(run(run_of_a_second + silent).err, Not(HasSubstr(" of 0.2 s"))) << silent;
+  }
+  EXPECT_EQ(run("simulate model.toml --progress loud").code, 2);
+}
+
 TEST_F(Verbs, Statics_finds_the_closure_force_of_the_free_slider) {
   const Ended ended = run("statics model.toml");
   EXPECT_EQ(ended.code, 0) << ended.err;
@@ -243,6 +256,21 @@ TEST_F(Verbs, Tune_certifies_a_stiffness_and_replays_it_from_the_journal) {
   };
   EXPECT_LE(largest(rows[0]), 0.001 * (1 + 1e-6));
   EXPECT_GT(largest(rows[1]), 0.001);
+}
+
+TEST_F(Verbs, Status_of_a_tune_counts_to_its_budget_until_it_has_its_answer) {
+  ASSERT_EQ(run("tune tune.toml -o out -s search.max_evaluations=150 --walltime 0.12").code, 75);
+  const json before = json::parse(run("status out --json").out);
+  EXPECT_EQ(before["total"], 150);
+  EXPECT_LT(before["done"], 150);
+  EXPECT_EQ(before["running"], false);
+  EXPECT_THAT(run("status out").out, HasSubstr(" of at most 150\n"));
+  const Ended tuned = run("tune tune.toml -o out -s search.max_evaluations=150 --json");
+  ASSERT_EQ(tuned.code, 0) << tuned.err;
+  const json after = json::parse(run("status out --json").out);
+  EXPECT_EQ(after["total"], json::parse(tuned.out)["evaluations"]);
+  EXPECT_EQ(after["eta_s"], 0.0);
+  EXPECT_THAT(run("status out").out, HasSubstr("complete"));
 }
 
 TEST_F(Verbs, A_tune_without_a_window_exits_with_4_and_says_why) {
