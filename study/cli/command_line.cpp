@@ -255,9 +255,10 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments) {
   line.command = fmt::format("linkstudy {}", fmt::join(arguments, " "));
   require(!arguments.empty(), "a verb is missing; try 'linkstudy --help'");
   const std::string& first = arguments.front();
-  if (first == "--version" || first == "--help" || first == "-h") {
+  const bool is_version = first == "--version" || first == "version";
+  if (is_version || first == "--help" || first == "-h" || first == "help") {
     require(arguments.size() == 1, fmt::format("{} stands alone", first));
-    line.verb = first == "--version" ? "version" : "help";
+    line.verb = is_version ? "version" : "help";
     return line;
   }
   require(!first.starts_with('-'), fmt::format("a verb comes first, got '{}'", first));

@@ -11,6 +11,7 @@
 #include "study/cli/report_error.h"
 #include "study/cli/verbs.h"
 #include "study/cli/version.h"
+#include "study/schedule/launcher.h"
 
 namespace linkstudy {
 namespace {
@@ -25,12 +26,23 @@ constexpr VerbEntry kVerbs[] = {
     {"simulate", run_simulate}, {"statics", run_statics}, {"study", run_study},
     {"tune", run_tune},         {"status", run_status},   {"export", run_export}};
 
+// Copies of a verb that works in one process: the first says so, and its exit code becomes that of
+// the launcher. The others leave without one, or the launcher might end the first before it speaks.
+bool leaves_to_first(const CommandLine& line) {
+  if (line.verb == "study" || line.verb == "tune") return false;
+  const Launcher launcher = find_launcher(read_environment);
+  if (launcher.size > 1 && launcher.rank > 0) return true;
+  check_alone(launcher, line.verb);
+  return false;
+}
+
 int run_verb(const std::vector<std::string>& arguments) {
   const CommandLine line = parse_command_line(arguments);
   if (line.verb == "version" || line.verb == "help" || line.help) {
     print_out(line.help ? usage_of(line.verb) : line.verb == "help" ? usage() : version_text());
     return kDone;
   }
+  if (leaves_to_first(line)) return kDone;
   for (const VerbEntry& verb : kVerbs) {
     if (line.verb == verb.name) return verb.run(line);
   }

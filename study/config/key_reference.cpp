@@ -164,6 +164,7 @@ KeyDescription describe_key(const std::string& kind, const std::string& path) {
 }
 
 std::vector<std::string> nearest_keys(const std::string& path_prefix) {
+  constexpr std::size_t most = 3;
   std::vector<std::string> paths;
   for (const Section& section : sections()) {
     for (const KeyRow& row : section.rows) {
@@ -171,7 +172,12 @@ std::vector<std::string> nearest_keys(const std::string& path_prefix) {
       if (row.type != KeyType::planned && is_new) paths.push_back(row.path);
     }
   }
-  return nearest_names(path_prefix, paths, 3);
+  // "mass" without what it is of.
+  std::vector<std::string> named;
+  for (const std::string& path : paths) {
+    if (named.size() < most && path.ends_with("." + path_prefix)) named.push_back(path);
+  }
+  return named.empty() ? nearest_names(path_prefix, paths, most) : named;
 }
 
 std::string key_reference_markdown() {

@@ -79,4 +79,13 @@ void check_size(const Launcher& launcher, int communicator_size) {
       launcher.rank);
 }
 
+void check_alone(const Launcher& launcher, const std::string& verb) {
+  if (launcher.size <= 1) return;
+  throw LaunchError(
+      fmt::format("'{}' works in one process, and {} started {}; start it without (study and tune "
+                  "share their work)",
+                  verb, launcher.name, launcher.size),
+      launcher.rank);
+}
+
 }  // namespace linkstudy

@@ -39,4 +39,7 @@ void check_reachable(const Launcher& launcher);
 // Throws LaunchError when the launcher started n > 1 but the communicator has another size.
 void check_size(const Launcher& launcher, int communicator_size);
 
+// Throws LaunchError when the launcher started n > 1 of a verb that works in one process.
+void check_alone(const Launcher& launcher, const std::string& verb);
+
 }  // namespace linkstudy

@@ -101,6 +101,12 @@ JournalContents parse_journal(std::string_view bytes, const std::filesystem::pat
 
 JournalContents read_journal(const std::filesystem::path& directory) {
   const std::filesystem::path path = directory / kJournalName;
+  if (!std::filesystem::is_directory(directory)) {
+    throw StoreError(fmt::format("{}: {}", directory.string(),
+                                 std::filesystem::exists(directory)
+                                     ? "is no results directory but a file"
+                                     : "there is no such directory"));
+  }
   if (!std::filesystem::exists(path)) {
     throw StoreError(
         fmt::format("{}: holds no study ({} is missing)", directory.string(), kJournalName));

@@ -69,6 +69,8 @@ const BadCommand kBadCommands[] = {
     {"markdown_and_path", "describe link --markdown", "leave PATH out"},
     {"status_of_nothing", "status none", "none"},
     {"export_of_nothing", "export none", "none"},
+    {"status_of_a_file", "status model.toml", "is no results directory but a file"},
+    {"key_without_its_path", "describe mass", "nearest: link.*.mass"},
 };
 
 INSTANTIATE_TEST_SUITE_P(All, BadCommands, ::testing::ValuesIn(kBadCommands),
@@ -165,6 +167,22 @@ TEST_F(BadUse, A_failing_reference_is_an_error_of_the_whole_study) {
   EXPECT_EQ(ended.code, 3);
   EXPECT_THAT(ended.err, HasSubstr("the reference run failed (constraint_drift)"));
   EXPECT_THAT(left_behind(), IsEmpty());
+}
+
+TEST_F(BadUse, Copies_of_a_verb_for_one_process_are_refused_once_and_write_nothing) {
+  ASSERT_EQ(setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1), 0);
+  ASSERT_EQ(setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1), 0);
+  write_inputs();
+  for (const std::string verb : {"simulate model.toml --csv out.csv", "init model -o new.toml"}) {
+    const Ended ended = run(verb, "mpirun --oversubscribe -n 2");
+    EXPECT_EQ(ended.code, 2);
+    EXPECT_EQ(ended.out, "");
+    const std::string says = "works in one process, and mpirun (Open MPI) started 2";
+    const std::size_t first = ended.err.find(says);
+    ASSERT_NE(first, std::string::npos) << ended.err;
+    EXPECT_EQ(ended.err.find(says, first + 1), std::string::npos) << ended.err;
+    EXPECT_THAT(left_behind(), IsEmpty());
+  }
 }
 
 TEST_F(BadUse, A_directory_with_other_files_is_left_alone) {

@@ -168,6 +168,7 @@ TEST(Reference, Every_key_of_the_reference_linkage_is_described) {
   EXPECT_THAT(*describe("simulation.step"), HasSubstr("default: 1.0e-4"));
   EXPECT_FALSE(describe("link.crank.color"));
   EXPECT_THAT(nearest_keys("link.mas").front(), "link.*.mass");
+  EXPECT_THAT(nearest_keys("mass"), testing::ElementsAre("link.*.mass"));
 }
 
 TEST(Reference, The_markdown_has_a_row_for_every_key_and_six_columns) {

@@ -80,5 +80,18 @@ TEST(Launcher, Of_another_MPI_library_is_explained) {
   }
 }
 
+TEST(Launcher, Of_several_copies_of_a_verb_for_one_process_is_refused) {
+  EXPECT_NO_THROW(check_alone(find({}), "simulate"));
+  EXPECT_NO_THROW(check_alone(find({{"OMPI_COMM_WORLD_SIZE", "1"}, {"OMPI_COMM_WORLD_RANK", "0"}}),
+                              "simulate"));
+  try {
+    check_alone(find({{"OMPI_COMM_WORLD_SIZE", "2"}, {"OMPI_COMM_WORLD_RANK", "1"}}), "simulate");
+    FAIL() << "two copies would have run";
+  } catch (const LaunchError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("'simulate' works in one process, and mpirun"));
+    EXPECT_FALSE(error.is_first());
+  }
+}
+
 }  // namespace
 }  // namespace linkstudy
