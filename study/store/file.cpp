@@ -172,11 +172,17 @@ void replace_file(const std::filesystem::path& temporary, const std::filesystem:
 }
 
 void write_file_atomically(const std::filesystem::path& path, std::string_view text) {
-  std::filesystem::path temporary = path;
+  namespace fs = std::filesystem;
+  if (fs::exists(path) && !fs::is_regular_file(path)) {
+    File(path, O_WRONLY).write_all(text);
+    return;
+  }
+  const fs::path target = fs::is_symlink(path) ? fs::weakly_canonical(path) : path;
+  fs::path temporary = target;
   temporary += ".tmp";
   try {
     File(temporary, O_WRONLY | O_CREAT | O_TRUNC).write_all(text);
-    replace_file(temporary, path);
+    replace_file(temporary, target);
   } catch (...) {
     ::unlink(temporary.c_str());
     throw;

@@ -48,6 +48,7 @@ void sync_directory(const std::filesystem::path& directory);
 // one, never a part.
 void replace_file(const std::filesystem::path& temporary, const std::filesystem::path& path);
 
+// The same for a text. A link stays and its target is replaced; a device or a pipe is written to.
 void write_file_atomically(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace linkstudy
