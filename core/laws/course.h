@@ -6,16 +6,16 @@
 
 namespace linkstudy {
 
-// min(t / T, 1), with rate = 1 / T
+// t / T from 0 to 1 and flat outside, with rate = 1 / T
 template <class Real>
 inline Real ramp_course(Real t, Real rate) {
-  return min(t * rate, Real(1.0));
+  return min(max(t * rate, Real(0.0)), Real(1.0));
 }
 
-// 3 s^2 - 2 s^3 on [0, 1], then 1
+// 3 s^2 - 2 s^3 on [0, 1], 0 before and 1 after
 template <class Real>
 inline Real smooth_course(Real t, Real rate) {
-  const Real s = min(t * rate, Real(1.0));
+  const Real s = ramp_course(t, rate);
   return s * s * madd(Real(-2.0), s, Real(3.0));
 }
 

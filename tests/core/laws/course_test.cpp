@@ -22,6 +22,13 @@ TEST(Course, A_smooth_course_is_the_cubic_of_its_book_with_flat_ends) {
   EXPECT_NEAR(1.0 - smooth_course(1.0 - e, 1.0), 3 * e * e, 1e-15);
 }
 
+TEST(Course, Nothing_acts_before_time_zero) {
+  for (const double t : {-1e-9, -0.3, -1.0, -40.0}) {
+    EXPECT_EQ(ramp_course(t, 0.25), 0.0) << t;
+    EXPECT_EQ(smooth_course(t, 0.25), 0.0) << t;
+  }
+}
+
 TEST(Course, A_segment_climbs_between_its_ends_and_is_flat_outside) {
   EXPECT_EQ(linear_segment(0.5, 1.0, 2.0, 3.0), 0.0);
   EXPECT_DOUBLE_EQ(linear_segment(1.5, 1.0, 2.0, 3.0), 1.5);
