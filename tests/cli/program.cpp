@@ -8,6 +8,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "tests/support/rsrrp_text.h"
+
 namespace linkstudy::testing {
 namespace {
 
@@ -88,88 +90,10 @@ void Program::write_inputs() const {
 }
 
 std::string model_text() {
-  return R"(format = 1
-kind = "model"
-name = "short RSRRP"
-gravity = [0.0, -9.81, 0.0]
-
-[[link]]
-name = "crank"
-mass = 1.0
-center_of_mass = [0.0, 0.05, 0.0]
-inertia = [8.333333333333333e-4, 1.0e-4, 8.333333333333333e-4]
-
-[[link]]
-name = "slider"
-mass = 2.0
-inertia = [1.0e-3, 1.0e-3, 1.0e-3]
-
-[[link]]
-name = "yoke"
-mass = 0.2
-inertia = [1.0e-4, 1.0e-4, 1.0e-4]
-
-[[link]]
-name = "coupler"
-mass = 1.5
-center_of_mass = [0.0, 0.25, 0.0]
-inertia = [0.03125, 1.0e-4, 0.03125]
-
-[[joint]]
-name = "A"
-type = "revolute"
-parent = "ground"
-child = "crank"
-
-[[joint]]
-name = "P"
-type = "prismatic"
-parent = "ground"
-child = "slider"
-frame = { position = [0.0, -0.3830127018922193, 0.0], matrix = [[0, -1, 0], [1, 0, 0], [0, 0, 1]] }
-initial = { position = [0.25] }
-
-[[joint]]
-name = "Q"
-type = "revolute"
-parent = "slider"
-child = "yoke"
-frame = { position = [0.05, 0.0, 0.0] }
-
-[[joint]]
-name = "R"
-type = "revolute"
-parent = "yoke"
-child = "coupler"
-frame = { rotation = { axis = [1, 0, 0], angle = "-90 deg" } }
-initial = { position = ["-60 deg"] }
-
-[[closure]]
-name = "S"
-type = "spherical"
-first = { link = "crank", position = [0.0, 0.1, 0.0] }
-second = { link = "coupler", position = [0.0, 0.5, 0.0] }
-model = "cut"
-sde = { stiffness = 1.0e6, damping_ratio = 0.7 }
-
-[[load]]
-name = "drive"
-type = "torque"
-joint = "A"
-course = { shape = "ramp", value = 10.0, duration = 5.0 }
-
-[[load]]
-name = "resistance"
-type = "resistance"
-joint = "A"
-law = { shape = "linear", value = 10.0, at_speed = 9.0 }
-
-[simulation]
-end_time = 0.2
-step = 1.0e-3
-start = "equilibrium"
-output_interval = 1.0e-2
-)";
+  using test::replaced;
+  std::string text = replaced(test::rsrrp_text(), "end_time = 15.0", "end_time = 0.2");
+  text = replaced(text, "step = 1.0e-4", "step = 1.0e-3");
+  return replaced(text, "damping = 1.0e3", "damping_ratio = 0.7");
 }
 
 std::string study_text() {

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <random>
 
-#include "rsrrp_text.h"
+#include "config_text.h"
 #include "study/config/check_file.h"
 #include "study/config/toml_reader.h"
 

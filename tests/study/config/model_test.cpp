@@ -8,7 +8,7 @@
 #include <functional>
 #include <numbers>
 
-#include "rsrrp_text.h"
+#include "config_text.h"
 #include "study/config/toml_reader.h"
 #include "study/config/toml_writer.h"
 

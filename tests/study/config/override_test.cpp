@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "rsrrp_text.h"
+#include "config_text.h"
 #include "study/config/key_reference.h"
 
 namespace linkstudy {

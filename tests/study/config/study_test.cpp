@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "rsrrp_text.h"
+#include "config_text.h"
 #include "study/config/check_file.h"
 #include "study/config/toml_writer.h"
 

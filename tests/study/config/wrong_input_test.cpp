@@ -5,7 +5,7 @@
 
 #include <ostream>
 
-#include "rsrrp_text.h"
+#include "config_text.h"
 
 namespace linkstudy {
 namespace {

@@ -5,14 +5,12 @@
 #include <string>
 
 #include "study/config/model_document.h"
+#include "tests/support/rsrrp_text.h"
 
 namespace linkstudy::test {
 
 // Link masses and inertias as in the reference set, closure S as a cut joint with an sde beside it.
 extern const std::string kRsrrp;
-
-// The text with one occurrence replaced; throws when `from` does not occur exactly once.
-std::string replaced(std::string text, const std::string& from, const std::string& to);
 
 // A file in the test's scratch folder.
 std::string write_file(const std::string& name, const std::string& text);

@@ -1,13 +1,11 @@
-#include "rsrrp_text.h"
+#include "tests/support/rsrrp_text.h"
 
-#include <gtest/gtest.h>
-
-#include <filesystem>
 #include <stdexcept>
 
 namespace linkstudy::test {
 
-const std::string kRsrrp = R"(format = 1
+std::string rsrrp_text() {
+  return R"(format = 1
 kind = "model"
 name = "RSRRP linkage, reference set R1"
 gravity = [0.0, -9.81, 0.0]
@@ -93,6 +91,7 @@ integrator = "rk4"
 start = "equilibrium"
 output_interval = 1.0e-2
 )";
+}
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);
@@ -100,32 +99,6 @@ std::string replaced(std::string text, const std::string& from, const std::strin
     throw std::logic_error("test text: not exactly once: " + from);
   }
   return text.replace(at, from.size(), to);
-}
-
-std::string write_file(const std::string& name, const std::string& text) {
-  const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-  const std::filesystem::path folder =
-      std::filesystem::path(testing::TempDir()) /
-      (std::string("linkstudy_config_") + info->test_suite_name() + "_" + info->name());
-  std::filesystem::create_directories(folder);
-  const std::string path = (folder / name).string();
-  std::ofstream(path, std::ios::binary) << text;
-  return path;
-}
-
-std::optional<ModelInput> read_text(const std::string& text, Diagnostics& diagnostics,
-                                    std::span<const Override> overrides) {
-  const std::optional<ModelDocument> document =
-      ModelDocument::parse(text, "model.toml", diagnostics);
-  if (!document) return std::nullopt;
-  return document->with(overrides, diagnostics);
-}
-
-Override set(const std::string& assignment) {
-  Diagnostics diagnostics;
-  const std::optional<Override> override = parse_set(assignment, diagnostics);
-  if (!override) throw std::logic_error("test override: " + assignment);
-  return *override;
 }
 
 }  // namespace linkstudy::test
