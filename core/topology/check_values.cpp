@@ -194,6 +194,10 @@ void check_closure(const Closure& closure, const std::string& path,
   }
   record.require_frame("first", closure.first.frame);
   record.require_frame("second", closure.second.frame);
+  if (closure.model == ClosureModel::clearance) {
+    record.report("model", "model = \"clearance\" is not supported in this version",
+                  "use model = \"cut\" or \"sde\"");
+  }
   record.require_not_negative("cut.alpha", closure.alpha);
   record.require_not_negative("cut.beta", closure.beta);
   if (closure.model == ClosureModel::sde) check_sde(closure, record);

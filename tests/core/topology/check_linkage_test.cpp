@@ -237,6 +237,14 @@ TEST(Check, A_spring_damping_element_is_stiff_somewhere_and_nowhere_negative) {
   EXPECT_THAT(paths(linkage), ElementsAre("closure.S.sde.form"));
 }
 
+TEST(Check, Clearance_is_not_supported_and_says_where_it_was_asked_for) {
+  Linkage linkage = make_tree();
+  linkage.closures = {make_closure("b", "d")};
+  linkage.closures[0].model = ClosureModel::clearance;
+  EXPECT_THAT(paths(linkage), ElementsAre("closure.S.model"));
+  EXPECT_THAT(only_message(linkage), HasSubstr("not supported in this version"));
+}
+
 TEST(Check, Loads_name_an_existing_coordinate_or_link) {
   Linkage linkage = make_tree();
   linkage.loads.assign(5, make_drive("A"));
