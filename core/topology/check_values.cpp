@@ -11,6 +11,7 @@ namespace {
 constexpr double kRotationTolerance = 1.0e-6;
 constexpr double kUnitTolerance = 1.0e-6;
 constexpr double kTriangleTolerance = 1.0e-3;
+constexpr unsigned kTranslations = 1u << kX | 1u << kY | 1u << kZ;
 
 std::string text_of(double value) {
   char buffer[32];
@@ -78,6 +79,22 @@ void check_start(const Joint& joint, Record& record) {
   record.require_unit("initial.position", quaternion.norm());
 }
 
+// Directions that a closure leaves free turn with its first end. Elements along ground axes can
+// stand for that only if they hold every translation alike.
+void check_axes(const Closure& closure, Record& record) {
+  const Sde& sde = closure.sde;
+  const auto alike = [](const std::array<double, kDirections>& a) {
+    return a[kX] == a[kY] && a[kY] == a[kZ];
+  };
+  const bool isotropic = alike(sde.stiffness) && (sde.damping_ratio || alike(sde.damping));
+  const bool slides = (blocked_directions(closure.type) & kTranslations) != kTranslations;
+  if (!slides || isotropic || sde.axes == SdeAxes::first) return;
+  record.report("sde.axes",
+                "axes = \"ground\" stiffens directions of the ground, but those this closure type "
+                "leaves free turn with its first end",
+                "use axes = \"first\", or stiffness (and damping) alike along x, y and z");
+}
+
 void check_sde(const Closure& closure, Record& record) {
   static constexpr const char* kNames[kDirections] = {"x", "y", "z", "phi", "theta", "psi"};
   const Sde& sde = closure.sde;
@@ -92,14 +109,14 @@ void check_sde(const Closure& closure, Record& record) {
                   "give a positive stiffness in at least one direction");
   }
   if (sde.damping_ratio) record.require_not_negative("sde.damping_ratio", *sde.damping_ratio);
-  constexpr unsigned translations = 1u << kX | 1u << kY | 1u << kZ;
-  const bool point = (blocked_directions(closure.type) & translations) == translations;
+  const bool point = (blocked_directions(closure.type) & kTranslations) == kTranslations;
   if (sde.form != SdeForm::directional && !point) {
     record.report("sde.form",
                   "line_of_centres and three_springs hold a point in all directions, "
                   "which this closure type leaves free in one",
                   "use form = \"directional\"");
   }
+  check_axes(closure, record);
   if (sde.form != SdeForm::three_springs) return;
   for (int i = 0; i < 3; ++i) record.require_unit("sde.directions", sde.directions.row(i).norm());
   if (!(std::abs(sde.directions.determinant()) > kRotationTolerance)) {

@@ -67,8 +67,8 @@ void add_sde_rows(Rows& rows) {
                   .words = {"directional", "line_of_centres", "three_springs"}});
   rows.push_back({.path = sde + ".axes",
                   .type = word,
-                  .meaning = "frame in which x y z are fixed: ground or the first end",
-                  .standard = "\"ground\"",
+                  .meaning = "frame in which x y z are fixed: ground or the first end; by default "
+                             "first for prismatic, cylindrical and planar, else ground",
                   .words = {"ground", "first"}});
   rows.push_back({.path = sde + ".tilt",
                   .type = word,

@@ -31,6 +31,16 @@ std::array<double, kDirections> read_components(const Tree* tree, JointType type
   return components;
 }
 
+// Not given: the axes that the free directions of the closure turn with, if it has any.
+SdeAxes read_axes(Tree& sde, JointType type) {
+  constexpr unsigned translations = 1u << kX | 1u << kY | 1u << kZ;
+  const bool slides = (blocked_directions(type) & translations) != translations;
+  if (sde.find("axes") == nullptr) {
+    relocate(sde.set("axes", Tree::make_text(slides ? "first" : "ground")), sde.at);
+  }
+  return word_of(sde, "axes") == "first" ? SdeAxes::first : SdeAxes::ground;
+}
+
 }  // namespace
 
 void read_sde(Tree& closure_table, Closure& closure, Diagnostics& diagnostics) {
@@ -50,7 +60,7 @@ void read_sde(Tree& closure_table, Closure& closure, Diagnostics& diagnostics) {
   const std::string form = word_of(*tree, "form");
   if (form == "line_of_centres") sde.form = SdeForm::line_of_centres;
   if (form == "three_springs") sde.form = SdeForm::three_springs;
-  if (word_of(*tree, "axes") == "first") sde.axes = SdeAxes::first;
+  sde.axes = read_axes(*tree, closure.type);
   if (word_of(*tree, "tilt") == "linearized") sde.tilt = TiltMeasure::linearized;
   const double arm = number_of(*tree, "arm", 0.1);
   sde.stiffness = read_components(tree->find("stiffness"), closure.type, arm);

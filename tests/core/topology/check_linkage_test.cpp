@@ -237,6 +237,32 @@ TEST(Check, A_spring_damping_element_is_stiff_somewhere_and_nowhere_negative) {
   EXPECT_THAT(paths(linkage), ElementsAre("closure.S.sde.form"));
 }
 
+TEST(Check, A_sliding_element_turns_with_its_first_end_unless_it_holds_all_directions_alike) {
+  Linkage linkage = make_tree();
+  linkage.closures = {make_closure("b", "d")};
+  linkage.closures[0].model = ClosureModel::sde;
+  Sde& sde = linkage.closures[0].sde;
+  for (const JointType type : {JointType::prismatic, JointType::cylindrical, JointType::planar}) {
+    linkage.closures[0].type = type;
+    sde = {};
+    sde.stiffness = {0, 5, 5, 1, 1, 1};
+    EXPECT_THAT(paths(linkage), ElementsAre("closure.S.sde.axes"));
+    EXPECT_THAT(only_message(linkage), HasSubstr("closure 'S': axes = \"ground\""));
+    sde.axes = SdeAxes::first;
+    EXPECT_THAT(paths(linkage), IsEmpty());
+    sde.axes = SdeAxes::ground;
+    sde.stiffness[kX] = 5;
+    EXPECT_THAT(paths(linkage), IsEmpty());
+    sde.damping[kY] = 0.5;
+    EXPECT_THAT(paths(linkage), ElementsAre("closure.S.sde.axes"));
+    sde.damping_ratio = 0.7;  // takes the place of damping
+    EXPECT_THAT(paths(linkage), IsEmpty());
+  }
+  linkage.closures[0].type = JointType::revolute;  // no free translation: any axes, any stiffness
+  sde.stiffness[kX] = 7;
+  EXPECT_THAT(paths(linkage), IsEmpty());
+}
+
 TEST(Check, Clearance_is_not_supported_and_says_where_it_was_asked_for) {
   Linkage linkage = make_tree();
   linkage.closures = {make_closure("b", "d")};

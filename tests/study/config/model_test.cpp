@@ -141,6 +141,22 @@ TEST(Model, Resolved_text_reads_back_to_the_same_tree_bit_by_bit) {
   }
 }
 
+TEST(Model, Elements_of_sliding_closures_turn_with_the_first_end_unless_told_otherwise) {
+  const std::string unsaid = replaced(kRsrrp, "axes = \"ground\", ", "");
+  const auto axes_of = [&](const std::string& type) {
+    const ModelInput input = read_good(unsaid, {"closure.S.type=" + type, "closure.S.model=sde"});
+    const ModelInput again = read_good(write_toml(input.resolved));
+    EXPECT_EQ(again.linkage.closures[0].sde.axes, input.linkage.closures[0].sde.axes) << type;
+    return input.linkage.closures[0].sde.axes;
+  };
+  for (const char* type : {"prismatic", "cylindrical", "planar"}) {
+    EXPECT_EQ(axes_of(type), SdeAxes::first) << type;
+  }
+  for (const char* type : {"spherical", "revolute", "universal", "fixed"}) {
+    EXPECT_EQ(axes_of(type), SdeAxes::ground) << type;
+  }
+}
+
 TEST(Model, Numbers_and_texts_survive_writing_bit_by_bit) {
   Tree table = Tree::make_table();
   for (const double value :

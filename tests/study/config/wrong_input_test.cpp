@@ -156,6 +156,14 @@ const Wrong kKeys[] = {
      "value = 10.0, duration = 5.0 }",
      "@[[load]]\nname = \"drive\"\ntype = \"torque\"\njoint = \"A\"",
      "load 'drive': course is missing"},
+    {"ground_axes_of_a_slide",
+     "type = \"spherical\"\nfirst  = { link = \"crank\",   position = [0.0, 0.1, 0.0] }\n"
+     "second = { link = \"coupler\", position = [0.0, 0.5, 0.0] }\n"
+     "model  = \"cut\"\ncut.stabilization = \"none\"\nsde = { axes = \"ground\",",
+     "type = \"cylindrical\"\nfirst  = { link = \"crank\",   position = [0.0, 0.1, 0.0] }\n"
+     "second = { link = \"coupler\", position = [0.0, 0.5, 0.0] }\n"
+     "model  = \"sde\"\nsde = { axes = @\"ground\",",
+     "closure 'S': axes = \"ground\" stiffens directions of the ground", "axes = \"first\""},
     {"missing_stiffness", kSde, "sde = @{ axes = \"ground\" }",
      "closure 'S': sde.stiffness is missing"},
     {"missing_sde",
