@@ -1,6 +1,7 @@
 #include "core/model/compile.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 
 namespace linkstudy {
@@ -85,15 +86,23 @@ VectorShape shape_of(const Eigen::Vector3d& a) {
                         : VectorShape::along_z;
 }
 
+// Entries that quarter turns leave beside 0 and 1: cos(pi / 2) rounds to 6e-17, products of a few
+// turns to some ulp. A tilt by more than this is meant.
+constexpr double kAxisRounding = 4.0 * std::numeric_limits<double>::epsilon();
+
 RotationShape shape_of(const Eigen::Matrix3d& r, QuarterTurn& quarter) {
+  bool is_identity = true;
   for (int j = 0; j < 3; ++j) {
     int axis = 0;
-    const double largest = r.col(j).cwiseAbs().maxCoeff(&axis);
-    if (largest != 1.0 || r.col(j).squaredNorm() != 1.0) return RotationShape::general;
+    r.col(j).cwiseAbs().maxCoeff(&axis);
+    const double sign = r(axis, j) > 0.0 ? 1.0 : -1.0;
+    const Eigen::Vector3d off = r.col(j) - sign * Eigen::Vector3d::Unit(axis);
+    if (!(off.cwiseAbs().maxCoeff() <= kAxisRounding)) return RotationShape::general;
     quarter.axis[static_cast<std::size_t>(j)] = static_cast<std::int8_t>(axis);
-    quarter.sign[static_cast<std::size_t>(j)] = r(axis, j) > 0.0 ? 1 : -1;
+    quarter.sign[static_cast<std::size_t>(j)] = sign > 0.0 ? 1 : -1;
+    is_identity = is_identity && axis == j && sign > 0.0;
   }
-  return r.isIdentity(0.0) ? RotationShape::identity : RotationShape::quarter;
+  return is_identity ? RotationShape::identity : RotationShape::quarter;
 }
 
 // Differences below rounding of the sum count as equal.
