@@ -3,8 +3,11 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "core/dynamics/differences.h"
 #include "core/dynamics/motion.h"
+#include "core/forces/applied_forces.h"
 #include "core/kinematics/assembly.h"
 #include "core/kinematics/closure_jacobian.h"
 
@@ -16,9 +19,9 @@ using Eigen::VectorXd;
 
 constexpr int kMaxIterations = 100;
 constexpr double kLongestStep = 0.2;      // rad or m, of one iteration
-constexpr double kDifference = 1e-6;      // rad or m
 constexpr double kForceTolerance = 1e-9;  // relative to the weights and loads at play
-constexpr double kNeutral = 1e-7;         // relative to the largest stiffness
+constexpr double kNeutral = 1e-12;        // relative to the largest stiffness
+constexpr double kDoubts = 10.0;          // of the differences, that a stiffness must exceed
 
 struct Balance {
   VectorXd tau;  // (nv)
@@ -42,16 +45,24 @@ VectorXd net_force(const Balance& b, const VectorXd& lambda) {
 }
 
 // d(tau - J^T lambda)/dq
-MatrixXd force_gradient(const Model& model, const State<double>& s, const VectorXd& lambda,
-                        Workspace<double>& w) {
+struct ForceGradient {
+  MatrixXd value;
+  double doubt = 0.0;  // norm of the differences' own doubt
+};
+
+ForceGradient force_gradient(const Model& model, const State<double>& s, const VectorXd& lambda,
+                             Workspace<double>& w) {
   const Mechanism& m = model.mechanism;
-  MatrixXd g(m.nv, m.nv);
+  const VectorXd steps = difference_steps(model, s);
+  ForceGradient g{MatrixXd(m.nv, m.nv)};
   for (int k = 0; k < m.nv; ++k) {
-    VectorXd dq = VectorXd::Zero(m.nv);
-    dq[k] = kDifference;
-    const VectorXd plus = net_force(compute_balance(model, displaced(m, s, dq), w), lambda);
-    const VectorXd minus = net_force(compute_balance(model, displaced(m, s, -dq), w), lambda);
-    g.col(k) = (plus - minus) / (2.0 * kDifference);
+    const auto force = [&](double x) {
+      const State<double> moved = displaced(m, s, x * VectorXd::Unit(m.nv, k));
+      return net_force(compute_balance(model, moved, w), lambda);
+    };
+    const Derivative column = differentiate(force, steps[k]);
+    g.value.col(k) = column.value;
+    g.doubt = std::hypot(g.doubt, column.doubt.norm());
   }
   return g;
 }
@@ -78,27 +89,34 @@ VectorXd newton_step(const MatrixXd& gradient, const Balance& b, const VectorXd&
   return x;
 }
 
-// Forces that equilibrium balances: the weights and the loads, as they act on the joints.
-double force_scale(const Model& model, const State<double>& s, Workspace<double>& w) {
-  compute_motion(model.mechanism, model.parameters, s, w);
-  const auto& g = model.parameters.gravity;
+// Forces that equilibrium balances: the weights and, at the time of the state, the loads.
+// Resistances rest.
+double force_scale(const Model& model, double t) {
+  const Parameters<double>& p = model.parameters;
   double scale = 1e-6;
-  for (std::size_t b = 1; b < model.parameters.bodies.size(); ++b) {
-    scale = std::max(scale, model.parameters.bodies[b].mass * sqrt(dot(g, g)));
+  for (std::size_t b = 1; b < p.bodies.size(); ++b) {
+    scale = std::max(scale, p.bodies[b].mass * sqrt(dot(p.gravity, p.gravity)));
   }
-  for (const LoadParameters<double>& l : model.parameters.loads) {
-    scale = std::max(scale, std::abs(l.value));
+  for (std::size_t i = 0; i < p.loads.size(); ++i) {
+    const LoadStructure& load = model.mechanism.loads[i];
+    if (load.type == LoadType::resistance) continue;
+    const double value = course_value(load, p.loads[i], p.segments.data(), t);
+    scale = std::max(scale, std::abs(value));
   }
   return scale;
 }
 
-// Rounding of stiffness times position: no smaller force residual can be asked for.
-double rounding_floor(const Model& model) {
+// Stiffness times the rounding of positions, far from the origin too, on the levers at play: no
+// smaller force residual can be asked for.
+double rounding_floor(const Model& model, const State<double>& s) {
+  const Extent extent = compute_extent(model, s);
+  const double reach = std::max(extent.farthest, extent.length) * std::max(extent.length, 1.0);
   double largest = 0.0;
-  for (const SpringParameters<double>& n : model.parameters.springs) {
-    largest = std::max(largest, n.stiffness);
+  for (std::size_t r = 0; r < model.mechanism.sde_rows.size(); ++r) {
+    const bool turns = model.mechanism.sde_rows[r].kind == RowKind::rotation;
+    largest = std::max(largest, model.parameters.springs[r].stiffness * (turns ? 1.0 : reach));
   }
-  return 1e-15 * largest;
+  return 8.0 * std::numeric_limits<double>::epsilon() * largest;
 }
 
 void judge_stability(const Model& model, const State<double>& s, const VectorXd& lambda,
@@ -108,8 +126,11 @@ void judge_stability(const Model& model, const State<double>& s, const VectorXd&
     return;
   }
   const Balance b = compute_balance(model, s, w);
-  MatrixXd k = -force_gradient(model, s, lambda, w);
+  const ForceGradient gradient = force_gradient(model, s, lambda, w);
+  MatrixXd k = -gradient.value;
   k = 0.5 * (k + k.transpose()).eval();
+  const double weights = force_scale(model, s.t) * compute_extent(model, s).length;
+  const double stiffest = std::max(k.cwiseAbs().maxCoeff(), weights);
   if (b.j.rows() > 0) {
     Eigen::FullPivLU<MatrixXd> lu(b.j);
     lu.setThreshold(1e-7);
@@ -124,7 +145,7 @@ void judge_stability(const Model& model, const State<double>& s, const VectorXd&
   if (k.rows() == 0) return;
   const VectorXd e = Eigen::SelfAdjointEigenSolver<MatrixXd>(k).eigenvalues();
   report.smallest_stiffness = e[0];
-  const double limit = kNeutral * std::max(e.cwiseAbs().maxCoeff(), 1e-12);
+  const double limit = std::max(kNeutral * stiffest, kDoubts * gradient.doubt);
   report.stability = e[0] > limit    ? Stability::stable
                      : e[0] < -limit ? Stability::unstable
                                      : Stability::neutral;
@@ -139,7 +160,7 @@ StaticsReport solve_statics(const Model& model, State<double>& s) {
   std::fill(x.v.begin(), x.v.end(), 0.0);
   StaticsReport report;
   const double tolerance =
-      std::max(kForceTolerance * force_scale(model, x, w), rounding_floor(model));
+      std::max(kForceTolerance * force_scale(model, x.t), rounding_floor(model, x));
   Balance b = compute_balance(model, x, w);
   VectorXd lambda = b.j.rows() > 0
                         ? VectorXd(b.j.transpose().completeOrthogonalDecomposition().solve(b.tau))
@@ -152,7 +173,7 @@ StaticsReport solve_statics(const Model& model, State<double>& s) {
         report.force_residual <= tolerance && report.closure_residual <= kClosedTolerance;
     if (report.converged || report.iterations == kMaxIterations) break;
     if (!force.allFinite()) break;
-    VectorXd step = newton_step(force_gradient(model, x, lambda, w), b, force);
+    VectorXd step = newton_step(force_gradient(model, x, lambda, w).value, b, force);
     const double longest = step.head(m.nv).lpNorm<Eigen::Infinity>();
     const double part = longest > kLongestStep ? kLongestStep / longest : 1.0;
     x = displaced(m, x, part * step.head(m.nv));

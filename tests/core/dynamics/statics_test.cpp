@@ -23,9 +23,10 @@ struct Equilibrium {
   StaticsReport report;
 };
 
-Equilibrium equilibrium_of(const Linkage& linkage) {
+Equilibrium equilibrium_of(const Linkage& linkage, double t = 0.0) {
   Equilibrium e{compile(linkage), {}, {}};
   e.state = e.model.start;
+  e.state.t = t;
   e.report = solve_statics(e.model, e.state);
   return e;
 }
@@ -53,6 +54,24 @@ Linkage hanging_mass(double mass, double stiffness) {
   spring.second.link = kGround;
   spring.sde.stiffness[kZ] = stiffness;
   linkage.closures = {spring};
+  return linkage;
+}
+
+// The linkage with its crank at psi and all else where that belongs.
+Linkage rsrrp_at(double psi) {
+  Linkage linkage = rsrrp();
+  const RsrrpPose start = rsrrp_pose(psi);
+  for (std::size_t k = 0; k < 4; ++k) {
+    linkage.joints[k].position = {std::array{start.psi, start.d, start.psi22, start.psi23}[k]};
+  }
+  return linkage;
+}
+
+// The same with the spherical joint replaced by a spring of stiffness c.
+Linkage replaced_at(double psi, double c) {
+  Linkage linkage = rsrrp_at(psi);
+  linkage.closures[0].model = ClosureModel::sde;
+  linkage.closures[0].sde.stiffness = {c, c, c, 0, 0, 0};
   return linkage;
 }
 
@@ -115,12 +134,7 @@ TEST(Statics, A_falling_mass_has_no_equilibrium_and_keeps_its_state) {
 // One freedom: the potential energy along the closed form is stationary there. Found without the
 // engine, by bisection on its slope.
 TEST(Statics, The_cut_linkage_rests_where_its_closed_potential_is_stationary) {
-  Linkage linkage = rsrrp();
-  linkage.joints[0].position = {2.6};
-  const RsrrpPose start = rsrrp_pose(2.6);
-  linkage.joints[1].position = {start.d};
-  linkage.joints[2].position = {start.psi22};
-  linkage.joints[3].position = {start.psi23};
+  const Linkage linkage = rsrrp_at(2.6);
   const Equilibrium e = equilibrium_of(linkage);
   ASSERT_TRUE(e.report.converged);
   EXPECT_EQ(e.report.stability, Stability::stable);
@@ -133,11 +147,7 @@ TEST(Statics, The_cut_linkage_rests_where_its_closed_potential_is_stationary) {
 }
 
 TEST(Statics, A_stiff_replacement_rests_where_the_cut_joint_does_with_the_same_force) {
-  Linkage cut = rsrrp();
-  const RsrrpPose start = rsrrp_pose(2.9);
-  for (std::size_t k = 0; k < 4; ++k) {
-    cut.joints[k].position = {std::array{start.psi, start.d, start.psi22, start.psi23}[k]};
-  }
+  const Linkage cut = rsrrp_at(2.9);
   Linkage sde = cut;
   sde.closures[0].model = ClosureModel::sde;
   const Equilibrium exact = equilibrium_of(cut);
@@ -162,6 +172,69 @@ TEST(Statics, A_stiff_replacement_rests_where_the_cut_joint_does_with_the_same_f
     }
     last = apart;
   }
+}
+
+// At the bottom the weights hold the crank, at the top they throw it over, and without them nothing
+// does either: however stiff the replacement is.
+TEST(Statics, The_verdict_on_stability_does_not_depend_on_the_stiffness_of_the_replacement) {
+  const Equilibrium hanging = equilibrium_of(rsrrp_at(2.9));
+  const Equilibrium standing = equilibrium_of(rsrrp_at(0.1));
+  ASSERT_EQ(hanging.report.stability, Stability::stable);
+  ASSERT_EQ(standing.report.stability, Stability::unstable);
+  for (const double c : {1e6, 1e7, 1e8, 1e9, 1e10}) {
+    const Equilibrium stable = equilibrium_of(replaced_at(2.9, c));
+    ASSERT_TRUE(stable.report.converged) << c;
+    EXPECT_EQ(stable.report.stability, Stability::stable) << c;
+    const double k = hanging.report.smallest_stiffness;
+    EXPECT_NEAR(stable.report.smallest_stiffness, k, k * (1e-2 + 1e4 / c)) << c;
+    const Equilibrium unstable = equilibrium_of(replaced_at(0.1, c));
+    ASSERT_TRUE(unstable.report.converged) << c;
+    EXPECT_EQ(unstable.report.stability, Stability::unstable) << c;
+    Linkage weightless = replaced_at(2.9, c);
+    weightless.gravity.setZero();
+    const Equilibrium neutral = equilibrium_of(weightless);
+    ASSERT_TRUE(neutral.report.converged) << c;
+    EXPECT_EQ(neutral.report.stability, Stability::neutral) << c;
+  }
+}
+
+TEST(Statics, A_linkage_far_from_the_origin_rests_as_it_does_at_home) {
+  const Equilibrium home = equilibrium_of(replaced_at(2.9, 1e8));
+  Linkage away = replaced_at(2.9, 1e8);
+  for (Joint& joint : away.joints) {
+    if (joint.parent == kGround) joint.frame.position += Vector3d(7e3, -5e3, 9e3);
+  }
+  const Equilibrium far = equilibrium_of(away);
+  ASSERT_TRUE(home.report.converged);
+  ASSERT_TRUE(far.report.converged) << far.report.force_residual;
+  EXPECT_LT(far.report.force_residual, 1e-2);  // 1e8 N/m times the rounding of 1e4 m
+  for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(far.state.q[k], home.state.q[k], 1e-2);
+  EXPECT_NEAR(far.state.q[1], home.state.q[1], 1e-4);
+}
+
+TEST(Statics, A_strong_resistance_does_not_blunt_the_search) {
+  Linkage linkage = pendulum_at(-M_PI / 2 + 0.7);
+  Load brake;
+  brake.name = "brake";
+  brake.type = LoadType::resistance;
+  brake.joint = linkage.joints[0].name;
+  brake.law = {ResistanceShape::linear, 1e12, 1.0};
+  linkage.loads = {brake};
+  const Equilibrium e = equilibrium_of(linkage);
+  ASSERT_TRUE(e.report.converged);
+  EXPECT_NEAR(e.state.q[0], -M_PI / 2, 1e-9);
+}
+
+TEST(Statics, A_drive_counts_with_its_value_at_the_time_of_the_state) {
+  Linkage linkage = pendulum_at(-M_PI / 2 + 0.7);
+  Load drive;
+  drive.name = "drive";
+  drive.joint = linkage.joints[0].name;
+  drive.course = {CourseShape::table, 0.0, 0.0, {0.0, 1.0, 3.0}, {1e12, 4.0, 6.0}};
+  linkage.loads = {drive};
+  const Equilibrium e = equilibrium_of(linkage, 2.0);
+  ASSERT_TRUE(e.report.converged);
+  EXPECT_NEAR(e.state.q[0], -M_PI / 2 + std::asin(5.0 / (2.0 * 9.81 * 0.5)), 1e-9);
 }
 
 TEST(Statics, A_planar_four_bar_with_redundant_rows_finds_its_rest) {

@@ -1,0 +1,60 @@
+#include "core/dynamics/differences.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "core/dynamics/motion.h"
+
+namespace linkstudy {
+namespace {
+
+constexpr double kStep = 1e-3;         // rad, or of the length
+constexpr double kCoincidence = 1e-6;  // m
+
+Eigen::Vector3d to_eigen(const Vec3<double>& a) {
+  return {a.x, a.y, a.z};
+}
+
+}  // namespace
+
+Extent compute_extent(const Model& model, const State<double>& s) {
+  const Mechanism& m = model.mechanism;
+  Workspace<double> w = make_workspace<double>(m);
+  compute_motion(m, model.parameters, s, w);
+  Eigen::AlignedBox3d box;
+  Extent extent;
+  const auto add = [&](const Vec3<double>& point) {
+    box.extend(to_eigen(point));
+    extent.farthest = std::max(extent.farthest, to_eigen(point).norm());
+  };
+  for (std::size_t b = 1; b < m.bodies.size(); ++b) {
+    const BodyParameters<double>& n = model.parameters.bodies[b];
+    add(w.bodies[b].p);
+    add(w.bodies[b].p + w.bodies[b].r * ((1.0 / n.mass) * n.moment));
+  }
+  for (const ClosureState<double>& c : w.closures) {
+    add(c.p1);
+    add(c.p2);
+  }
+  const double length = box.isEmpty() ? 0.0 : box.diagonal().norm();
+  if (length > kCoincidence) extent.length = length;
+  return extent;
+}
+
+Eigen::VectorXd difference_steps(const Model& model, const State<double>& s) {
+  const Mechanism& m = model.mechanism;
+  const double length = compute_extent(model, s).length;
+  Eigen::VectorXd steps(m.nv);
+  for (int k = 0; k < m.nv; ++k) {
+    const Velocity& velocity = m.velocities[static_cast<std::size_t>(k)];
+    const auto stage = static_cast<std::size_t>(velocity.stage);
+    const double advance = std::abs(model.parameters.pitch[stage]);
+    steps[k] = kStep;
+    if (velocity.kind == VelocityKind::translation) steps[k] *= length;
+    if (velocity.kind == VelocityKind::screw) steps[k] *= std::min(1.0, length / advance);
+  }
+  return steps;
+}
+
+}  // namespace linkstudy
