@@ -28,10 +28,10 @@ double amplification(std::complex<double> z) {
 }  // namespace
 
 double stable_step(std::complex<double> lambda) {
-  const double size = std::abs(lambda);
+  const std::complex<double> z(std::min(lambda.real(), 0.0), lambda.imag());
+  const double size = std::abs(z);
   if (size == 0.0) return std::numeric_limits<double>::infinity();
-  const std::complex<double> ray =
-      std::complex<double>(std::min(lambda.real(), 0.0), lambda.imag()) / size;
+  const std::complex<double> ray = z / size;
   constexpr double tolerance = 1.0 + 1e-10;
   double inside = 0.0;
   double outside = 0.0;

@@ -21,7 +21,8 @@ struct Spectrum {
 
 Spectrum compute_spectrum(const Model& model, const State<double>& s);
 
-// Largest h > 0 with |R(h' lambda)| <= 1 for all h' <= h.
+// Largest h > 0 with |R(h' z)| <= 1 for all h' <= h, z = min(Re lambda, 0) + i Im lambda; infinite
+// for z = 0.
 double stable_step(std::complex<double> lambda);
 
 }  // namespace linkstudy

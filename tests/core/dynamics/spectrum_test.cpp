@@ -74,6 +74,12 @@ TEST(Spectrum, An_inverted_pendulum_limits_the_step_by_its_falling_eigenvalue_on
   EXPECT_NEAR(s.step_limit, 2.785293563405282 / std::sqrt(9.81), 1e-6);
 }
 
+TEST(StableStep, Growth_that_belongs_to_the_motion_limits_no_step) {
+  EXPECT_TRUE(std::isinf(stable_step({5.0, 0.0})));
+  EXPECT_NEAR(stable_step({5.0, 0.1}), 2.0 * std::sqrt(2.0) / 0.1, 1e-5);
+  EXPECT_NEAR(stable_step({1e-6, -300.0}), 2.0 * std::sqrt(2.0) / 300.0, 1e-8);
+}
+
 TEST(StableStep, The_region_of_Runge_Kutta_ends_where_books_say) {
   EXPECT_NEAR(stable_step({-1.0, 0.0}), 2.785293563405282, 1e-8);
   EXPECT_NEAR(stable_step({0.0, 1.0}), 2.0 * std::sqrt(2.0), 1e-7);
