@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/dynamics/differences.h"
 #include "core/dynamics/motion.h"
 #include "core/kinematics/assembly.h"
 
@@ -14,11 +15,83 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kDisplacement = 1e-6;  // rad or m, of the differences
+bool is_shut(const ClosureState<double>& x) {
+  const Vec3<double> gap = x.p2 - x.p1;
+  return dot(gap, gap) <= kClosedTolerance * kClosedTolerance;
+}
+
+// Appends row r of a model; a line of centres becomes the three ground axes.
+void add_row(const Model& from, std::size_t r, bool shut, Mechanism& m, Parameters<double>& p) {
+  const Row& row = from.mechanism.sde_rows[r];
+  const bool spreads = shut && row.kind == RowKind::line_of_centres;
+  for (int d = kX; d <= (spreads ? kZ : kX); ++d) {
+    m.sde_rows.push_back(spreads ? Row{RowKind::translation_ground, row.closure, d, 0, 1.0, d}
+                                 : row);
+    p.springs.push_back(from.parameters.springs[r]);
+  }
+}
+
+// The model with ground axes in place of the lines of centres whose gap is shut.
+Model with_directions(const Model& model, const State<double>& s) {
+  Workspace<double> w = make_workspace<double>(model.mechanism);
+  compute_motion(model.mechanism, model.parameters, s, w);
+  Model directed = model;
+  Mechanism& m = directed.mechanism;
+  m.sde_rows.clear();
+  directed.parameters.springs.clear();
+  for (std::size_t i = 0; i < m.closures.size(); ++i) {
+    ClosureStructure& c = m.closures[i];
+    if (c.model != ClosureModel::sde) continue;
+    const bool shut = c.has_line && is_shut(w.closures[i]);
+    const int begin = m.sde_row_count();
+    for (int r = c.row_begin; r < c.row_end; ++r) {
+      add_row(model, static_cast<std::size_t>(r), shut, m, directed.parameters);
+    }
+    c.row_begin = begin;
+    c.row_end = m.sde_row_count();
+    if (!shut) continue;
+    c.has_line = false;
+    c.point_rows = true;  // the line is the first row of its closure
+  }
+  return directed;
+}
+
+// dq' = dv - omega x dq for the coordinates of balls, else dq' = dv.
+void fill_kinematics(const Mechanism& m, const State<double>& s, MatrixXd& a) {
+  a.topRightCorner(m.nv, m.nv).setIdentity();
+  for (const Stage& stage : m.stages) {
+    if (stage.motion != BasicMotion::ball) continue;
+    const Eigen::Map<const Eigen::Vector3d> omega(s.v.data() + stage.v);
+    for (int k = 0; k < 3; ++k) {
+      a.block<3, 1>(stage.v, stage.v + k) = -omega.cross(Eigen::Vector3d::Unit(k));
+    }
+  }
+}
 
 VectorXd accelerations(const Model& model, const State<double>& s, Workspace<double>& w) {
   compute_motion(model.mechanism, model.parameters, s, w);
   return Eigen::Map<const VectorXd>(w.qdd.data(), model.mechanism.nv);
+}
+
+MatrixXd linear_system(const Model& model, const State<double>& s) {
+  const Mechanism& m = model.mechanism;
+  Workspace<double> w = make_workspace<double>(m);
+  const VectorXd steps = difference_steps(model, s);
+  MatrixXd a = MatrixXd::Zero(2 * m.nv, 2 * m.nv);
+  fill_kinematics(m, s, a);
+  for (int k = 0; k < m.nv; ++k) {
+    const auto at_position = [&](double x) {
+      return accelerations(model, displaced(m, s, x * VectorXd::Unit(m.nv, k)), w);
+    };
+    const auto at_velocity = [&](double x) {
+      State<double> moved = s;
+      moved.v[static_cast<std::size_t>(k)] += x;
+      return accelerations(model, moved, w);
+    };
+    a.block(m.nv, k, m.nv, 1) = differentiate(at_position, steps[k]).value;
+    a.block(m.nv, m.nv + k, m.nv, 1) = differentiate(at_velocity, steps[k]).value;
+  }
+  return a;
 }
 
 double amplification(std::complex<double> z) {
@@ -50,22 +123,7 @@ Spectrum compute_spectrum(const Model& model, const State<double>& s) {
   Spectrum result;
   result.step_limit = std::numeric_limits<double>::infinity();
   if (m.nv == 0) return result;
-  Workspace<double> w = make_workspace<double>(m);
-  MatrixXd a = MatrixXd::Zero(2 * m.nv, 2 * m.nv);
-  a.topRightCorner(m.nv, m.nv).setIdentity();
-  for (int k = 0; k < m.nv; ++k) {
-    VectorXd dq = VectorXd::Zero(m.nv);
-    dq[k] = kDisplacement;
-    const VectorXd plus = accelerations(model, displaced(m, s, dq), w);
-    const VectorXd minus = accelerations(model, displaced(m, s, -dq), w);
-    a.block(m.nv, k, m.nv, 1) = (plus - minus) / (2.0 * kDisplacement);
-    State<double> fast = s;
-    State<double> slow = s;
-    fast.v[static_cast<std::size_t>(k)] += kDisplacement;
-    slow.v[static_cast<std::size_t>(k)] -= kDisplacement;
-    a.block(m.nv, m.nv + k, m.nv, 1) =
-        (accelerations(model, fast, w) - accelerations(model, slow, w)) / (2.0 * kDisplacement);
-  }
+  const MatrixXd a = linear_system(with_directions(model, s), s);
   if (!a.allFinite()) return result;
   const Eigen::VectorXcd eigenvalues = Eigen::EigenSolver<MatrixXd>(a, false).eigenvalues();
   for (const std::complex<double>& lambda : eigenvalues) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -34,6 +35,34 @@ Linkage mass_on_spring(double mass, double stiffness, double damping) {
   return linkage;
 }
 
+// A body free in space, held at its centre of mass by an element along the line of centres.
+Linkage body_on_line(double mass, double stiffness, double damping) {
+  Linkage linkage;
+  linkage.links = {{"body", mass, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity()}};
+  Joint joint;
+  joint.name = "free";
+  joint.type = JointType::free;
+  joint.parent = kGround;
+  joint.child = "body";
+  linkage.joints = {joint};
+  Closure line;
+  line.name = "line";
+  line.model = ClosureModel::sde;
+  line.first.link = "body";
+  line.second.link = kGround;
+  line.sde.form = SdeForm::line_of_centres;
+  line.sde.stiffness[kX] = stiffness;
+  line.sde.damping[kX] = damping;
+  linkage.closures = {line};
+  return linkage;
+}
+
+// How many eigenvalues lie within `tolerance` of lambda.
+std::ptrdiff_t count_near(const Spectrum& s, std::complex<double> lambda, double tolerance) {
+  return std::count_if(s.eigenvalues.begin(), s.eigenvalues.end(),
+                       [&](std::complex<double> e) { return std::abs(e - lambda) <= tolerance; });
+}
+
 Spectrum spectrum_of(const Linkage& linkage) {
   const Model model = compile(linkage);
   return compute_spectrum(model, model.start);
@@ -43,7 +72,7 @@ Spectrum spectrum_of(const Linkage& linkage) {
 
 TEST(Spectrum, A_mass_on_a_spring_swings_at_the_root_of_stiffness_over_mass) {
   const Spectrum s = spectrum_of(mass_on_spring(2.0, 5e5, 0.0));
-  EXPECT_NEAR(s.omega_max, 500.0, 1e-5);  // differences over 1e-6 m: 1e-10 relative
+  EXPECT_NEAR(s.omega_max, 500.0, 1e-5);
   ASSERT_EQ(s.eigenvalues.size(), 2u);
   EXPECT_NEAR(std::abs(s.eigenvalues[0].imag()), 500.0, 1e-5);
   EXPECT_NEAR(s.step_limit, std::sqrt(8.0) / 500.0, 1e-6 / 500.0);
@@ -72,6 +101,82 @@ TEST(Spectrum, An_inverted_pendulum_limits_the_step_by_its_falling_eigenvalue_on
   const Spectrum s = spectrum_of(linkage);
   EXPECT_NEAR(s.omega_max, std::sqrt(9.81), 1e-6);
   EXPECT_NEAR(s.step_limit, 2.785293563405282 / std::sqrt(9.81), 1e-6);
+}
+
+TEST(Spectrum, Damping_along_the_line_of_centres_shows_in_every_direction_while_the_gap_is_shut) {
+  const double m = 2.0, c = 5e5, zeta = 0.3, w = 500.0;
+  const Spectrum s = spectrum_of(body_on_line(m, c, 2 * zeta * std::sqrt(c * m)));
+  const std::complex<double> damped(-zeta * w, w * std::sqrt(1 - zeta * zeta));
+  EXPECT_EQ(count_near(s, damped, 1e-3), 3);
+  EXPECT_EQ(count_near(s, std::conj(damped), 1e-3), 3);
+}
+
+TEST(Spectrum, Damping_along_the_line_of_centres_is_along_the_line_once_the_gap_is_open) {
+  const double m = 2.0, c = 5e5, zeta = 0.3, w = 500.0;
+  Linkage linkage = body_on_line(m, c, 2 * zeta * std::sqrt(c * m));
+  linkage.joints[0].position = {2e-2, -1e-2, 3e-2, 0, 0, 0};
+  const Spectrum s = spectrum_of(linkage);
+  const std::complex<double> damped(-zeta * w, w * std::sqrt(1 - zeta * zeta));
+  EXPECT_EQ(count_near(s, damped, 1e-3), 1);
+  EXPECT_EQ(count_near(s, {0.0, w}, 1e-3), 2);
+}
+
+// Of a top about its axis: one pair in the body, nutation; one pair because the body's own axes,
+// in which the disturbance is measured, turn past it.
+TEST(Spectrum, A_spinning_top_in_quaternions_has_its_nutation_and_its_turning_axes) {
+  const double transverse = 0.3, axial = 0.45, omega = 20.0;
+  Linkage linkage;
+  linkage.links = {{"top", 1.0, Eigen::Vector3d::Zero(),
+                    Eigen::Vector3d(transverse, transverse, axial).asDiagonal()}};
+  Joint joint;
+  joint.name = "ball";
+  joint.type = JointType::spherical;
+  joint.coordinates = RotationCoordinates::quaternion;
+  joint.parent = kGround;
+  joint.child = "top";
+  joint.velocity = {0, 0, omega};
+  linkage.joints = {joint};
+  const Spectrum s = spectrum_of(linkage);
+  const double nutation = (axial / transverse - 1.0) * omega;
+  for (const double sign : {-1.0, 1.0}) {
+    EXPECT_EQ(count_near(s, {0.0, sign * omega}, 1e-8), 1);
+    EXPECT_EQ(count_near(s, {0.0, sign * nutation}, 1e-8), 1);
+  }
+  EXPECT_EQ(count_near(s, {0.0, 0.0}, 1e-5), 2);
+  EXPECT_NEAR(s.omega_max, omega, 1e-8);
+}
+
+// A point mass on a turning rail: r'' = omega^2 r, omega' = -2 r' omega / r, a few micrometres from
+// the axis.
+TEST(Spectrum, A_mechanism_of_micrometres_has_the_spectrum_of_its_equations) {
+  const double r = 4e-6, rate = 3e-5, omega = 2.0;
+  Linkage linkage;
+  linkage.links = {{"rail", 1e-30, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero()},
+                   {"mass", 1.0, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero()}};
+  Joint turn;
+  turn.name = "turn";
+  turn.parent = kGround;
+  turn.child = "rail";
+  turn.velocity = {omega};
+  Joint slide;
+  slide.name = "slide";
+  slide.type = JointType::prismatic;
+  slide.parent = "rail";
+  slide.child = "mass";
+  slide.frame.rotation << 0, 0, 1, 0, 1, 0, -1, 0, 0;  // z along the rail's x
+  slide.position = {r};
+  slide.velocity = {rate};
+  linkage.joints = {turn, slide};
+  Eigen::Matrix4d a = Eigen::Matrix4d::Zero();  // of (angle, r, omega, r')
+  a.topRightCorner<2, 2>().setIdentity();
+  a.row(2) << 0, 2 * rate * omega / (r * r), -2 * rate / r, -2 * omega / r;
+  a.row(3) << 0, omega * omega, 2 * omega * r, 0;
+  const Eigen::VectorXcd exact = a.eigenvalues();
+  const Spectrum s = spectrum_of(linkage);
+  ASSERT_EQ(s.eigenvalues.size(), 4u);
+  for (const std::complex<double>& lambda : exact) {
+    EXPECT_GE(count_near(s, lambda, 1e-5 * s.omega_max), 1) << lambda;
+  }
 }
 
 TEST(StableStep, Growth_that_belongs_to_the_motion_limits_no_step) {
