@@ -12,18 +12,17 @@ void compute_motion(const Mechanism& m, const Parameters<double>& p, const State
 Eigen::MatrixXd compute_mass_matrix(const Mechanism& m, const Parameters<double>& p,
                                     const State<double>& s) {
   Workspace<double> w = make_workspace<double>(m);
-  update_kinematics(m, p, s.q.data(), s.v.data(), w);
-  update_inertial_wrenches(m, w);
-  update_applied_forces(m, p, s.t, s.v.data(), w);
-  update_bias(m, p, w);
-  update_mass_matrix(m, p, w);
-  Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(m.nv, m.nv);
+  update_factored_mass_matrix(m, p, s.t, s.q.data(), s.v.data(), w);
+  Eigen::MatrixXd l = Eigen::MatrixXd::Identity(m.nv, m.nv);
+  Eigen::VectorXd d(m.nv);
   for (int k = 0; k < m.nv; ++k) {
-    for (int i = k; i >= 0; i = m.v_parent[static_cast<std::size_t>(i)]) {
-      mass(k, i) = mass(i, k) = w.mass[static_cast<std::size_t>(k * m.nv + i)];
+    d[k] = 1.0 / w.inverse_pivot[static_cast<std::size_t>(k)];
+    for (int i = m.v_parent[static_cast<std::size_t>(k)]; i >= 0;
+         i = m.v_parent[static_cast<std::size_t>(i)]) {
+      l(k, i) = w.mass[static_cast<std::size_t>(k * m.nv + i)];
     }
   }
-  return mass;
+  return l.transpose() * d.asDiagonal() * l;
 }
 
 }  // namespace linkstudy

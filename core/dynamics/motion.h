@@ -12,7 +12,7 @@ namespace linkstudy {
 void compute_motion(const Mechanism& m, const Parameters<double>& p, const State<double>& s,
                     Workspace<double>& w);
 
-// Mass matrix (nv, nv) at a state.
+// Mass matrix (nv, nv) at a state, from its factors: M = L^T D L.
 Eigen::MatrixXd compute_mass_matrix(const Mechanism& m, const Parameters<double>& p,
                                     const State<double>& s);
 
