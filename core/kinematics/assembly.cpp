@@ -57,9 +57,11 @@ struct Closing {
   int iterations;
 };
 
-Closing close_loops(const Model& model, const std::vector<int>& free, State<double> s) {
-  const Mechanism& m = model.mechanism;
-  ClosureEquations e = compute_closure_equations(m, model.parameters, s);
+// `equations` of a state are to vanish.
+template <class Equations>
+Closing solve(const Mechanism& m, const Equations& equations, const std::vector<int>& free,
+              State<double> s) {
+  ClosureEquations e = equations(s);
   double residual = e.residual.norm();
   double mu = 0.0;
   int iteration = 0;
@@ -68,7 +70,7 @@ Closing close_loops(const Model& model, const std::vector<int>& free, State<doub
     const double longest = x.lpNorm<Eigen::Infinity>();
     if (longest > kLongestStep) x *= kLongestStep / longest;
     const State<double> trial = displaced(m, s, scatter(x, free, m.nv));
-    ClosureEquations et = compute_closure_equations(m, model.parameters, trial);
+    ClosureEquations et = equations(trial);
     if (et.residual.norm() < residual) {
       s = trial;
       e = std::move(et);
@@ -82,26 +84,100 @@ Closing close_loops(const Model& model, const std::vector<int>& free, State<doub
   return {s, residual, iteration};
 }
 
-// Sense of the axes of every closure, x_1 . x_2 and y_1 . y_2 as far as the closure aligns them:
-// rotation rows vanish for opposite axes too.
-std::vector<bool> axis_senses(const Model& model, const State<double>& s) {
+// Axes that closure i aligns, of its first and second frame in turn: x, or x and y, or none.
+struct AxisPair {
+  Eigen::Vector3d first, second;
+};
+std::vector<AxisPair> aligned_axes(const Model& model, Workspace<double>& w, std::size_t i) {
+  const Mechanism& m = model.mechanism;
+  const ClosureStructure& c = m.closures[i];
+  ClosureState<double>& pose = w.closures[i];
+  update_closure_pose(m, c, model.parameters.closures[i], w.bodies.data(), pose);
+  unsigned blocked = 0;
+  for (int r = c.row_begin; r < c.row_end; ++r) {
+    blocked |= 1u << m.cut_rows[static_cast<std::size_t>(r)].direction;
+  }
+  const bool x = (blocked >> kTheta & 1u) && (blocked >> kPsi & 1u);
+  const bool y = x && (blocked >> kPhi & 1u);
+  const auto pair = [](const Vec3<double>& a, const Vec3<double>& b) {
+    return AxisPair{{a.x, a.y, a.z}, {b.x, b.y, b.z}};
+  };
+  std::vector<AxisPair> pairs;
+  if (x) pairs.push_back(pair(pose.r1.x, pose.r2.x));
+  if (y) pairs.push_back(pair(pose.r1.y, pose.r2.y));
+  return pairs;
+}
+
+std::vector<std::size_t> flipped_closures(const Model& model, const State<double>& s) {
   const Mechanism& m = model.mechanism;
   Workspace<double> w = make_workspace<double>(m);
   update_kinematics(m, model.parameters, s.q.data(), s.v.data(), w);
-  std::vector<bool> senses;
+  std::vector<std::size_t> flipped;
   for (std::size_t i = 0; i < m.closures.size(); ++i) {
-    const ClosureStructure& c = m.closures[i];
-    unsigned aligned = 0;
-    for (int r = c.row_begin; r < c.row_end; ++r) {
-      aligned |= 1u << m.cut_rows[static_cast<std::size_t>(r)].direction;
-    }
-    ClosureState<double>& x = w.closures[i];
-    update_closure_pose(m, c, model.parameters.closures[i], w.bodies.data(), x);
-    const bool tilts = (aligned >> kTheta & 1u) && (aligned >> kPsi & 1u);
-    if (tilts) senses.push_back(dot(x.r1.x, x.r2.x) > 0.0);
-    if (tilts && (aligned >> kPhi & 1u)) senses.push_back(dot(x.r1.y, x.r2.y) > 0.0);
+    const std::vector<AxisPair> pairs = aligned_axes(model, w, i);
+    const bool opposite = std::any_of(
+        pairs.begin(), pairs.end(), [](const AxisPair& p) { return p.first.dot(p.second) < 0.0; });
+    if (opposite) flipped.push_back(i);
   }
-  return senses;
+  return flipped;
+}
+
+// The closure rows and, for every pair of axes that is to be aligned, the difference of the two:
+// that one vanishes for the same sense only.
+VectorXd aligning_residual(const Model& model, const State<double>& s) {
+  const Mechanism& m = model.mechanism;
+  Workspace<double> w = make_workspace<double>(m);
+  update_kinematics(m, model.parameters, s.q.data(), s.v.data(), w);
+  const VectorXd rows = compute_closure_equations(m, model.parameters, s).residual;
+  std::vector<double> r(rows.begin(), rows.end());
+  for (std::size_t i = 0; i < m.closures.size(); ++i) {
+    for (const AxisPair& p : aligned_axes(model, w, i)) {
+      for (int k = 0; k < 3; ++k) r.push_back(p.second[k] - p.first[k]);
+    }
+  }
+  return Eigen::Map<const VectorXd>(r.data(), static_cast<Eigen::Index>(r.size()));
+}
+
+ClosureEquations aligning_equations(const Model& model, const State<double>& s) {
+  constexpr double h = 1e-6;  // rad or m: steps need no exact Jacobian
+  const Mechanism& m = model.mechanism;
+  ClosureEquations e{aligning_residual(model, s), {}};
+  e.jacobian.resize(e.residual.size(), m.nv);
+  for (int k = 0; k < m.nv; ++k) {
+    const VectorXd dq = h * VectorXd::Unit(m.nv, k);
+    e.jacobian.col(k) = (aligning_residual(model, displaced(m, s, dq)) -
+                         aligning_residual(model, displaced(m, s, -dq))) /
+                        (2.0 * h);
+  }
+  return e;
+}
+
+// Closed with aligned axes before closed before open; the smaller residual then.
+bool is_better(const Model& model, const Closing& a, const Closing& b) {
+  const auto rank = [&](const Closing& c) {
+    if (c.residual > kClosedTolerance) return 2;
+    return flipped_closures(model, c.state).empty() ? 0 : 1;
+  };
+  const int rank_a = rank(a), rank_b = rank(b);
+  return rank_a != rank_b ? rank_a < rank_b : rank_a == 2 && a.residual < b.residual;
+}
+
+// Closes the loops from s; from there with axes aligned first, if they end up opposite.
+Closing close_loops(const Model& model, const std::vector<int>& free, const State<double>& s) {
+  const Mechanism& m = model.mechanism;
+  const auto rows = [&](const State<double>& x) {
+    return compute_closure_equations(m, model.parameters, x);
+  };
+  Closing direct = solve(m, rows, free, s);
+  if (direct.residual > kClosedTolerance || flipped_closures(model, direct.state).empty()) {
+    return direct;
+  }
+  const auto aligning = [&](const State<double>& x) { return aligning_equations(model, x); };
+  const Closing turned = solve(m, aligning, free, s);
+  Closing aligned = solve(m, rows, free, turned.state);
+  aligned.iterations += turned.iterations + direct.iterations;
+  direct.iterations = aligned.iterations;
+  return is_better(model, aligned, direct) ? aligned : direct;
 }
 
 // Restart i: every free coordinate moved at random by up to a reach that grows with i.
@@ -170,6 +246,27 @@ void assemble_velocities(const Model& model, const MatrixXd& jacobian, State<dou
   report.velocity_residual = (jacobian * v).norm() / scale;
 }
 
+// From the given start, then by restarts until a pose is closed with aligned axes. `restarts` of
+// the report says which one led to the returned pose, or how many were tried in vain.
+Closing search(const Model& model, const std::vector<int>& free, const State<double>& given,
+               AssemblyReport& report) {
+  Closing best = close_loops(model, free, given);
+  report.iterations = best.iterations;
+  const auto is_done = [&] {
+    return best.residual <= kClosedTolerance && flipped_closures(model, best.state).empty();
+  };
+  for (int i = 1; i <= kMaxRestarts && !free.empty() && !is_done(); ++i) {
+    const Closing next = close_loops(model, free, perturbed(model, free, given, i));
+    report.iterations += next.iterations;
+    const bool is_open = best.residual > kClosedTolerance;
+    if (is_open) report.restarts = i;
+    if (!is_better(model, next, best)) continue;
+    best = next;
+    report.restarts = i;
+  }
+  return best;
+}
+
 }  // namespace
 
 Model compile_closed(const Linkage& linkage) {
@@ -205,23 +302,16 @@ AssemblyReport assemble_start(const Model& closed, State<double>& start) {
   report.residual_given = report.residual = e.residual.norm();
   if (report.residual > kClosedTolerance) {
     const std::vector<int> free = free_velocities(closed);
-    const std::vector<bool> senses = axis_senses(closed, given);
-    Closing best = close_loops(closed, free, given);
-    report.iterations = best.iterations;
-    if (axis_senses(closed, best.state) != senses) best = {given, report.residual, best.iterations};
-    while (best.residual > kClosedTolerance && report.restarts < kMaxRestarts && !free.empty()) {
-      const Closing next =
-          close_loops(closed, free, perturbed(closed, free, given, ++report.restarts));
-      report.iterations += next.iterations;
-      const bool same_sense = axis_senses(closed, next.state) == senses;
-      if (same_sense && next.residual < best.residual) best = next;
-    }
+    const Closing best = search(closed, free, given, report);
     if (best.residual < report.residual) start.q = best.state.q;
     e = compute_closure_equations(m, closed.parameters, start);
     report.residual = e.residual.norm();
     report.displacement = distance(m, given, start);
   }
   report.closed = report.residual <= kClosedTolerance;
+  for (const std::size_t i : flipped_closures(closed, start)) {
+    report.flipped.push_back(m.closure_names[i]);
+  }
   find_branch(closed, e.jacobian, report);
   if (report.closed) {
     assemble_velocities(closed, e.jacobian, start, report);

@@ -3,8 +3,10 @@
 // Positions: least squares on the closure residual r (m and dimensionless rows) by
 // Levenberg-Marquardt, moving all joints that are not held. A start that is already closed is left
 // untouched; a worse one is never returned. If the given start does not lead to a closed pose,
-// deterministic restarts around it are tried, nearest first; a pose in which the axes of a closure
-// point against each other, where they did not at the given start, is no solution.
+// deterministic restarts around it are tried, nearest first.
+// Rotation rows vanish for opposite axes too. A closed pose in which the axes of a closure point
+// against each other (x_1 . x_2 < 0 where the closure aligns x, y_1 . y_2 < 0 where it aligns y) is
+// taken only if none with aligned axes is found; the report names such closures.
 // Velocities: the smallest change of the free velocities that gives J v = 0.
 // Every closure counts as the exact joint of its type, however it is modelled.
 #pragma once
@@ -31,8 +33,9 @@ struct AssemblyReport {
   // Which of the closed poses this is: the sign of the determinant of the closure equations with
   // respect to the `dependent` velocities; 0 where rank < rows or at a singular pose.
   int branch = 0;
-  std::vector<int> dependent;  // velocity indices
-  std::string worst_closure;   // largest residual, if not closed
+  std::vector<int> dependent;        // velocity indices
+  std::string worst_closure;         // largest residual, if not closed
+  std::vector<std::string> flipped;  // closures whose axes are opposite at the returned start
 };
 
 // Residual below which a start counts as closed, m and 1.

@@ -40,8 +40,16 @@ bool accept_velocities(const AssemblyReport& a, Preparation& p) {
   return false;
 }
 
-bool assemble(const Linkage& linkage, Preparation& p) {
-  p.assembly = assemble_start(compile_closed(linkage), p.model.start);
+void warn_of_flipped(const AssemblyReport& a, Preparation& p) {
+  for (const std::string& name : a.flipped) {
+    p.warnings.push_back("closure '" + name +
+                         "': the axes of its two ends point against each other at the start; turn "
+                         "one of its frames by 180 deg, or start nearer to the pose you mean");
+  }
+}
+
+bool assemble(const Model& closed, Preparation& p) {
+  p.assembly = assemble_start(closed, p.model.start);
   const AssemblyReport& a = p.assembly;
   if (!a.closed) {
     fail(p, Cause::assembly_failed,
@@ -54,6 +62,7 @@ bool assemble(const Linkage& linkage, Preparation& p) {
     p.warnings.push_back("the given start did not lead to a closed pose; used restart " +
                          std::to_string(a.restarts) + ", " + number(a.displacement) + " away");
   }
+  warn_of_flipped(a, p);
   warn_of_redundancy(p);
   return true;
 }
@@ -104,7 +113,8 @@ void warn_of_tilt(const Linkage& linkage, Preparation& p) {
 Preparation prepare(const Linkage& linkage, const SimulationOptions& options) {
   Preparation p;
   p.model = compile(linkage);
-  if (!assemble(linkage, p)) return p;
+  const Model closed = compile_closed(linkage);
+  if (!assemble(closed, p)) return p;
   resolve_damping(linkage, p.model.start, p.model);
   const std::vector<double> velocities = p.model.start.v;
   if (options.start == Start::equilibrium) {
@@ -112,7 +122,7 @@ Preparation prepare(const Linkage& linkage, const SimulationOptions& options) {
     p.model.start.v = velocities;
     // Statics moved the pose, still closed; velocities must fit the cut joints there.
     if (p.model.mechanism.sde_rows.empty() &&
-        !accept_velocities(assemble_start(compile_closed(linkage), p.model.start), p)) {
+        !accept_velocities(assemble_start(closed, p.model.start), p)) {
       return p;
     }
   }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "tests/mechanisms/four_bar.h"
@@ -60,6 +61,29 @@ Linkage crossed_four_bar() {
   Linkage linkage = four_bar(g);
   linkage.joints[1].position = {2 * diagonal - open.coupler - open.crank + 0.05};
   linkage.joints[2].position = {2 * diagonal - open.rocker - 0.05};
+  return linkage;
+}
+
+// A body on a ball joint, to be closed to ground with its frame along the ground's; the start is
+// off by an angle about an axis.
+Linkage turned_body(JointType closure, double angle, const Eigen::Vector3d& axis) {
+  Linkage linkage;
+  linkage.links = {{"body", 1.0, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity()}};
+  Joint ball;
+  ball.name = "ball";
+  ball.type = JointType::spherical;
+  ball.coordinates = RotationCoordinates::quaternion;
+  ball.parent = kGround;
+  ball.child = "body";
+  const Eigen::Quaterniond h(Eigen::AngleAxisd(angle, axis.normalized()));
+  ball.position = {h.w(), h.x(), h.y(), h.z()};
+  linkage.joints = {ball};
+  Closure c;
+  c.name = "C";
+  c.type = closure;
+  c.first.link = kGround;
+  c.second.link = "body";
+  linkage.closures = {c};
   return linkage;
 }
 
@@ -173,6 +197,42 @@ TEST(Assembly, The_branch_of_independent_rows_changes_its_sign_with_the_assembly
   EXPECT_EQ(open.report.dependent, other.report.dependent);
   EXPECT_NE(open.report.branch, 0);
   EXPECT_EQ(open.report.branch, -other.report.branch);
+}
+
+TEST(Assembly, A_start_more_than_a_right_angle_off_closes_with_aligned_axes) {
+  using Eigen::Vector3d;
+  for (const Vector3d& axis : {Vector3d(0, 1, 0), Vector3d(0, 0, 1), Vector3d(0.3, -1, 0.6)}) {
+    for (const double angle : {0.5, 1.4, 1.7, 2.2, 2.8, 3.1}) {
+      for (const JointType type : {JointType::fixed, JointType::revolute}) {
+        const Assembled a = assembled(turned_body(type, angle, axis));
+        ASSERT_TRUE(a.report.closed) << angle;
+        EXPECT_TRUE(a.report.flipped.empty()) << angle;
+        const Eigen::Quaterniond h(a.start.q[0], a.start.q[1], a.start.q[2], a.start.q[3]);
+        const Eigen::Matrix3d r = h.toRotationMatrix();
+        EXPECT_NEAR(r(0, 0), 1.0, 1e-12) << angle;
+        if (type == JointType::fixed) {
+          EXPECT_NEAR(r.trace(), 3.0, 1e-12) << angle;
+        }
+      }
+    }
+  }
+}
+
+TEST(Assembly, Axes_that_can_only_be_opposite_are_taken_so_with_a_warning) {
+  Linkage linkage = four_bar();  // planar: its axes keep their sense wherever it moves
+  linkage.joints[1].position[0] += 0.05;
+  EXPECT_TRUE(assembled(linkage).report.flipped.empty());
+  linkage.closures[0].second.frame.rotation *=
+      Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  const Preparation p = prepare(linkage, steps_of(1e-3, 1.0));
+  ASSERT_EQ(p.cause, Cause::ok) << p.message;
+  EXPECT_EQ(p.assembly.flipped, std::vector<std::string>{linkage.closures[0].name});
+  const auto named = std::count_if(p.warnings.begin(), p.warnings.end(), [](const auto& text) {
+    return text.find("closure 'C': the axes of its two ends point against each other") !=
+           std::string::npos;
+  });
+  EXPECT_EQ(named, 1);
+  EXPECT_LE(openness(linkage, p.model.start).position, kClosedTolerance);
 }
 
 TEST(Assembly, A_closure_out_of_reach_fails_by_its_name) {
