@@ -2,13 +2,17 @@
 
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 
 #include "core/dynamics/effective_mass.h"
+#include "core/dynamics/motion.h"
 #include "core/numerics/rank.h"
 #include "core/simulation/simulate.h"
 
 namespace linkstudy {
 namespace {
+
+constexpr double kLinearTurn = 45.0;  // deg
 
 std::string number(double x) {
   char text[32];
@@ -95,16 +99,28 @@ void warn_of_step(const SimulationOptions& options, Preparation& p) {
   }
 }
 
+// Turn of the second frame about the common x axis of closure i at a state, rad.
+double turn_of(const Model& model, const State<double>& s, std::size_t i) {
+  Workspace<double> w = make_workspace<double>(model.mechanism);
+  compute_motion(model.mechanism, model.parameters, s, w);
+  const Vec3<double>& y = w.closures[i].r2.y;
+  return std::atan2(dot(y, w.closures[i].r1.z), dot(y, w.closures[i].r1.y));
+}
+
+// What is known here is the start: a run may still turn such a joint too far.
 void warn_of_tilt(const Linkage& linkage, Preparation& p) {
-  for (const Closure& c : linkage.closures) {
+  for (std::size_t i = 0; i < linkage.closures.size(); ++i) {
+    const Closure& c = linkage.closures[i];
     const bool turns = c.sde.stiffness[kPhi] == 0.0;
     const bool tilts = c.sde.stiffness[kTheta] != 0.0 || c.sde.stiffness[kPsi] != 0.0;
     if (c.model != ClosureModel::sde || c.sde.tilt != TiltMeasure::linearized || !turns || !tilts) {
       continue;
     }
-    p.warnings.push_back("closure '" + c.name +
-                         "': tilt = \"linearized\" loses stiffness as the joint turns and has "
-                         "none at 90 deg; use \"axis\" beyond 45 deg");
+    const double turn = std::abs(turn_of(p.model, p.model.start, i)) * 180.0 / std::numbers::pi;
+    if (turn <= kLinearTurn) continue;
+    p.warnings.push_back("closure '" + c.name + "': its ends are turned by " + number(turn) +
+                         " deg at the start; tilt = \"linearized\" is meant for up to 45 deg and "
+                         "holds no tilt in one direction at 90 deg: use tilt = \"axis\"");
   }
 }
 

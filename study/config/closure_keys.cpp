@@ -72,7 +72,8 @@ void add_sde_rows(Rows& rows) {
                   .words = {"ground", "first"}});
   rows.push_back({.path = sde + ".tilt",
                   .type = word,
-                  .meaning = "measure of tilt: of the x axis (any rotation), or linearized (small)",
+                  .meaning = "measure of tilt: of the x axis (any rotation), or linearized (for "
+                             "turns of the joint up to 45 deg)",
                   .standard = "\"axis\"",
                   .words = {"axis", "linearized"}});
   rows.push_back({.path = sde + ".stiffness",

@@ -1,0 +1,53 @@
+// What a user is told before a run, and what not.
+#include "core/simulation/prepare.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "tests/mechanisms/rsrrp.h"
+#include "tests/support/engine_probe.h"
+
+namespace linkstudy::testing {
+namespace {
+
+// The revolute joint replaced, its second frame turned about the pin by some degrees.
+Linkage turned_revolute(double degrees) {
+  Linkage linkage = rsrrp_revolute();
+  Closure& pin = linkage.closures[0];
+  pin.model = ClosureModel::sde;
+  pin.sde.tilt = TiltMeasure::linearized;
+  pin.second.frame.rotation *=
+      Eigen::AngleAxisd(degrees * M_PI / 180, Eigen::Vector3d::UnitX()).toRotationMatrix();
+  return linkage;
+}
+
+std::string warning_about(const std::string& what, const Linkage& linkage) {
+  const Preparation p = prepare(linkage, steps_of(1e-5, 0.01));
+  EXPECT_EQ(p.cause, Cause::ok) << p.message;
+  const auto found = std::find_if(p.warnings.begin(), p.warnings.end(), [&](const auto& text) {
+    return text.find(what) != std::string::npos;
+  });
+  return found == p.warnings.end() ? "" : *found;
+}
+
+}  // namespace
+
+TEST(Prepare, Warns_of_a_linearized_tilt_where_the_joint_is_turned_beyond_45_degrees) {
+  for (const double degrees : {0.0, 30.0, -44.0}) {
+    EXPECT_EQ(warning_about("linearized", turned_revolute(degrees)), "") << degrees;
+  }
+  for (const double degrees : {46.0, -90.0, 170.0}) {
+    const std::string text = warning_about("linearized", turned_revolute(degrees));
+    const std::string angle = std::to_string(static_cast<int>(std::abs(degrees)));
+    EXPECT_NE(text.find("closure 'R': its ends are turned by " + angle + " deg"), std::string::npos)
+        << text;
+  }
+  Linkage exact = turned_revolute(90.0);
+  exact.closures[0].sde.tilt = TiltMeasure::axis;
+  EXPECT_EQ(warning_about("linearized", exact), "");
+}
+
+}  // namespace linkstudy::testing
