@@ -14,10 +14,40 @@ RedundantSystem::RedundantSystem(int rows, int columns) : rows_(rows), columns_(
   for (auto* x : {&jacobian_, &factor_}) x->resize(n * k);
   for (auto* x : {&column_scale_, &inverse_pivot_}) x->assign(k, 1.0);
   row_scale_.assign(n, 1.0);
+  right_hand_side_.resize(n);
   basis_.resize(most * n);
   combined_.resize(most * k);
   for (auto* x : {&reduced_, &permuted_}) x->resize(most);
   order_.resize(n);
+}
+
+RedundantSystem::RedundantSystem() = default;
+RedundantSystem::RedundantSystem(const RedundantSystem& other) = default;
+RedundantSystem::RedundantSystem(RedundantSystem&& other) noexcept = default;
+RedundantSystem& RedundantSystem::operator=(const RedundantSystem& other) = default;
+RedundantSystem& RedundantSystem::operator=(RedundantSystem&& other) noexcept = default;
+RedundantSystem::~RedundantSystem() = default;
+
+double* RedundantSystem::jacobian() {
+  return jacobian_.data();
+}
+double* RedundantSystem::row_scale() {
+  return row_scale_.data();
+}
+double* RedundantSystem::column_scale() {
+  return column_scale_.data();
+}
+double* RedundantSystem::factor() {
+  return factor_.data();
+}
+double* RedundantSystem::inverse_pivot() {
+  return inverse_pivot_.data();
+}
+double* RedundantSystem::right_hand_side() {
+  return right_hand_side_.data();
+}
+int RedundantSystem::rank() const {
+  return rank_;
 }
 
 int RedundantSystem::reduce(double tolerance) {

@@ -17,28 +17,35 @@
 
 namespace linkstudy {
 
+// Nothing is inline: callers compiled for a newer instruction set leave no copy of theirs behind.
 class RedundantSystem {
  public:
-  RedundantSystem() = default;
+  RedundantSystem();
   RedundantSystem(int rows, int columns);
+  RedundantSystem(const RedundantSystem& other);
+  RedundantSystem(RedundantSystem&& other) noexcept;
+  RedundantSystem& operator=(const RedundantSystem& other);
+  RedundantSystem& operator=(RedundantSystem&& other) noexcept;
+  ~RedundantSystem();
 
   // To be filled before reduce(), which overwrites the Jacobian: J by row, scales (> 0).
-  double* jacobian() { return jacobian_.data(); }
-  double* row_scale() { return row_scale_.data(); }
-  double* column_scale() { return column_scale_.data(); }
-  // To be filled before factorize(), which overwrites them: Y by row, (rows, columns); 1 / D.
-  double* factor() { return factor_.data(); }
-  double* inverse_pivot() { return inverse_pivot_.data(); }
+  double* jacobian();
+  double* row_scale();
+  double* column_scale();
+  // To be filled before factorize(), which overwrites the first: Y by row, (rows, columns); 1 / D.
+  double* factor();
+  double* inverse_pivot();
 
   // Finds B and returns the rank: rows of J~ whose part independent of rows already taken is not
   // longer than `tolerance` are dependent.
   int reduce(double tolerance);
   // For the B found: R of E.
   void factorize();
-  // b := lambda, (rows)
+  // b := lambda, (rows); right_hand_side() is a place for it.
   void solve(double* b);
+  double* right_hand_side();
 
-  int rank() const { return rank_; }
+  int rank() const;
 
  private:
   void orthonormalize(int j);
@@ -51,6 +58,7 @@ class RedundantSystem {
   std::vector<double> basis_;               // (rank, rows): U^T P^T, then B
   std::vector<double> combined_;            // (rank, columns): E by column, then R
   std::vector<double> reduced_, permuted_;  // (rank)
+  std::vector<double> right_hand_side_;     // (rows)
   std::vector<int> order_;
 };
 

@@ -9,7 +9,6 @@
 #include <numeric>
 #include <vector>
 
-#include "core/numerics/branch_sparse.h"
 #include "core/numerics/pivoted_qr.h"
 #include "tests/support/near.h"
 #include "tests/support/random.h"
@@ -32,25 +31,24 @@ struct Rows {
   MatrixXd a() const { return j * m.llt().solve(j.transpose()); }
 };
 
-// A serial chain's mass matrix: every velocity is an ancestor of those behind it.
 MatrixXd random_mass(Random& random, Eigen::Index n) {
   const MatrixXd x = random.matrix(n, n, 1.0);
   return x * x.transpose() + 0.3 * MatrixXd::Identity(n, n);
 }
 
+// M = U U^T with U upper triangular, so L^T = U / diagonal and D = diagonal^2.
 RedundantSystem reduced(const Rows& rows, double tolerance) {
   const auto n = static_cast<int>(rows.j.cols());
-  std::vector<int> parent(static_cast<std::size_t>(n));
-  std::iota(parent.begin(), parent.end(), -1);
-  RowMajor l = rows.m, y = rows.j;
+  const MatrixXd backwards = rows.m.rowwise().reverse().colwise().reverse();
+  const MatrixXd u = MatrixXd(backwards.llt().matrixL()).rowwise().reverse().colwise().reverse();
+  const VectorXd diagonal = u.diagonal();
+  const MatrixXd unit = u * diagonal.cwiseInverse().asDiagonal();
   RedundantSystem system(static_cast<int>(rows.j.rows()), n);
-  factorize_branch_sparse(n, parent.data(), l.data(), system.inverse_pivot());
-  for (Eigen::Index r = 0; r < y.rows(); ++r) {
-    solve_branch_transposed(n, parent.data(), l.data(), y.row(r).data());
-  }
-  Eigen::Map<RowMajor>(system.jacobian(), y.rows(), n) = rows.j;
-  Eigen::Map<RowMajor>(system.factor(), y.rows(), n) = y;
-  Eigen::Map<VectorXd>(system.row_scale(), y.rows()) = rows.s;
+  Eigen::Map<RowMajor>(system.jacobian(), rows.j.rows(), n) = rows.j;
+  Eigen::Map<RowMajor>(system.factor(), rows.j.rows(), n) =
+      unit.triangularView<Eigen::Upper>().solve(rows.j.transpose()).transpose();
+  Eigen::Map<VectorXd>(system.inverse_pivot(), n) = diagonal.cwiseAbs2().cwiseInverse();
+  Eigen::Map<VectorXd>(system.row_scale(), rows.j.rows()) = rows.s;
   Eigen::Map<VectorXd>(system.column_scale(), n) = rows.c;
   system.reduce(tolerance);
   system.factorize();

@@ -1,0 +1,190 @@
+// Rows of cut joints that depend on each other, or nearly so: the way that update_schur_complement
+// and solve_schur take where J M^-1 J^T is not definite by a margin (core/numerics/
+// redundant_system.h). Here is what the mechanism adds: sizes of rows and velocities, and how much
+// independence counts as drift.
+//
+// Row scale: 1 for a rotation, the closure's lever l for a translation, both the largest rate that
+// such a row can have for a relative rate of 1 rad/s, whichever way it points. l^2 is the mean of
+// the squared distances of the closure point from the axes that move it. So multipliers are least
+// in (l N)^2 + (N m)^2: of one unit, the same in every system of units, however the linkage lies,
+// whatever its masses.
+#pragma once
+
+#include "core/kinematics/closure_jacobian.h"
+#include "core/model/walk.h"
+
+namespace linkstudy {
+
+// Off the closed poses rows that depend on each other do not quite: their independent part grows
+// with the gap, and so does what has to count as none. Stages of a Runge-Kutta step lie h^2 off
+// even if its ends are closed. Independence below these is not looked at: `least` is that of
+// kRankTolerance, by which a start is judged; beyond `most` a gap no longer excuses.
+struct DriftTolerance {
+  static constexpr double per_gap = 10.0;
+  static constexpr double least = 1e-7;
+  static constexpr double most = 1e-2;
+};
+
+// Levers below this part of the coordinates are rounding of the coordinates, and distances below
+// this part of the lever count as that.
+inline constexpr double kLeastLever = 1e-3;
+
+// f(k) of the velocities that move the two ends of a closure against each other: on the path of one
+// end to ground and not on that of the other.
+template <class M, class F>
+inline void for_relative_velocities(const M& m, const ClosureStructure& c, F&& f) {
+  int a = c.last_1, b = c.last_2;
+  while (a != b) {
+    int& last = a > b ? a : b;
+    f(last);
+    last = at(m.v_parent, last);
+  }
+}
+
+template <class Real>
+inline Real largest_component(const Vec3<Real>& a) {
+  return max(abs(a.x), max(abs(a.y), abs(a.z)));
+}
+
+// Distance of a closure point from the axis of a velocity, or of a screw's motion along it if that
+// is more; m.
+template <class M, class Real>
+inline Real distance_from_axis(const M& m, const Parameters<Real>& p, const Workspace<Real, M>& w,
+                               int k, const Vec3<Real>& point) {
+  const Velocity& v = at(m.velocities, k);
+  const Vec3<Real> turned = cross(at(w.axes, k), point - at(w.bodies, v.body).p);
+  const Real distance = sqrt(dot(turned, turned));
+  return v.kind == VelocityKind::screw ? max(distance, abs(at(p.pitch, v.stage))) : distance;
+}
+
+// l of a closure; 0 where nothing turns its ends against each other.
+template <class M, class Real>
+inline Real closure_lever(const M& m, const Parameters<Real>& p, const Workspace<Real, M>& w,
+                          int closure) {
+  const Vec3<Real>& point = at(w.closures, closure).p2;
+  Real square(0.0), extent(0.0);
+  int count = 0;
+  for_relative_velocities(m, at(m.closures, closure), [&](int k) {
+    const Velocity& v = at(m.velocities, k);
+    if (v.kind == VelocityKind::translation) return;
+    const Real distance = distance_from_axis(m, p, w, k, point);
+    square = madd(distance, distance, square);
+    extent = max(extent, largest_component(at(w.bodies, v.body).p));
+    ++count;
+  });
+  if (count == 0) return Real(0.0);
+  extent = max(extent, largest_component(point));
+  return max(sqrt(square / Real(static_cast<double>(count))), Real(kLeastLever) * extent);
+}
+
+// Scales of all rows. A closure without a lever takes the longest of the others, or 1 m.
+template <class M, class Real>
+inline void update_row_scales(const M& m, const Parameters<Real>& p, Workspace<Real, M>& w) {
+  Real longest(0.0);
+  for_closures<ClosureModel::cut>(m, [&](auto c) {
+    const Real lever = closure_lever(m, p, w, c);
+    longest = max(longest, lever);
+    for_rows(m, c, [&](auto r) { at(w.row_scale, r) = lever; });
+  });
+  longest = select(longest > Real(0.0), longest, Real(1.0));
+  for_range(Index<0>(), cut_row_count(m), [&](auto r) {
+    Real& s = at(w.row_scale, r);
+    s = select(s > Real(0.0), s, longest);
+    if (at(m.cut_rows, r).kind == RowKind::rotation) s = Real(1.0);
+  });
+}
+
+// Largest part of a unit of row r's scaled rate that velocity k can have.
+template <class M, class Real>
+inline Real scaled_bound(const M& m, const Parameters<Real>& p, const Workspace<Real, M>& w, int k,
+                         int r) {
+  const Row& row = at(m.cut_rows, r);
+  const bool slides = at(m.velocities, k).kind == VelocityKind::translation;
+  if (row.kind == RowKind::rotation) return Real(slides ? 0.0 : 1.0);
+  const Real inverse = Real(1.0) / at(w.row_scale, r);
+  if (slides) return inverse;
+  const Vec3<Real>& point = at(w.closures, row.closure).p2;
+  return max(distance_from_axis(m, p, w, k, point) * inverse, Real(kLeastLever));
+}
+
+// Scales of all velocities: with them no entry of the scaled Jacobian exceeds about 1.
+template <class M, class Real>
+inline void update_velocity_scales(const M& m, const Parameters<Real>& p, Workspace<Real, M>& w) {
+  for_velocities(m, [&](auto k) { at(w.velocity_scale, k) = Real(0.0); });
+  for_closures<ClosureModel::cut>(m, [&](auto c) {
+    for_relative_velocities(m, at(m.closures, c), [&](int k) {
+      Real& scale = at(w.velocity_scale, k);
+      for (int r = row_begin(m, c); r < row_end(m, c); ++r) {
+        scale = max(scale, scaled_bound(m, p, w, k, r));
+      }
+    });
+  });
+  for_velocities(m, [&](auto k) {
+    Real& scale = at(w.velocity_scale, k);
+    scale = select(scale > Real(0.0), scale, Real(1.0));
+  });
+}
+
+// Largest gap of a row in its scale.
+template <class M, class Real>
+inline Real largest_gap(const M& m, const Workspace<Real, M>& w) {
+  Real gap(0.0);
+  for_range(Index<0>(), cut_row_count(m),
+            [&](auto r) { gap = max(gap, abs(at(w.cut_rows, r).d) / at(w.row_scale, r)); });
+  return gap;
+}
+
+template <class M, class Real>
+inline void fill_redundant_system(const M& m, const Workspace<Real, M>& w, int i,
+                                  RedundantSystem& system) {
+  const int nv = m.nv, nc = cut_row_count(m);
+  const auto copy = [i](const auto& from, int count, double* to) {
+    for (int n = 0; n < count; ++n) to[n] = lane(at(from, n), i);
+  };
+  copy(w.row_scale, nc, system.row_scale());
+  copy(w.cut_jacobian, nc * nv, system.jacobian());
+  copy(w.cut_y, nc * nv, system.factor());
+  copy(w.velocity_scale, nv, system.column_scale());
+  copy(w.inverse_pivot, nv, system.inverse_pivot());
+}
+
+// Factors for the lanes that have none (Workspace::definite), and the number of their independent
+// rows. Precondition: cut_jacobian.
+template <class M, class Real>
+inline void factorize_redundant_rows(const M& m, const Parameters<Real>& p, Workspace<Real, M>& w) {
+  update_row_scales(m, p, w);
+  update_velocity_scales(m, p, w);
+  const Real by_gap = Real(DriftTolerance::per_gap) * largest_gap(m, w);
+  const Real tolerance = min(max(by_gap, Real(DriftTolerance::least)), Real(DriftTolerance::most));
+  for (int i = 0; i < RealTraits<Real>::lanes; ++i) {
+    if (lane_bits(w.definite) >> i & 1u) continue;
+    RedundantSystem& system = at(w.redundant_systems, i);
+    fill_redundant_system(m, w, i, system);
+    set_lane(w.kept_rows, i, system.reduce(lane(tolerance, i)));
+    system.factorize();
+  }
+}
+
+// Solves the lanes that factorize_redundant_rows did; take keeps their right-hand sides from what
+// is done to the other lanes, give puts the multipliers in.
+template <class M, class Real>
+inline void take_redundant_rows(const M& m, Workspace<Real, M>& w) {
+  for (int i = 0; i < RealTraits<Real>::lanes; ++i) {
+    if (lane_bits(w.definite) >> i & 1u) continue;
+    double* b = at(w.redundant_systems, i).right_hand_side();
+    for (int r = 0; r < cut_row_count(m); ++r) b[r] = lane(at(w.schur_rhs, r), i);
+  }
+}
+
+template <class M, class Real>
+inline void give_redundant_rows(const M& m, Workspace<Real, M>& w) {
+  for (int i = 0; i < RealTraits<Real>::lanes; ++i) {
+    if (lane_bits(w.definite) >> i & 1u) continue;
+    RedundantSystem& system = at(w.redundant_systems, i);
+    double* b = system.right_hand_side();
+    system.solve(b);
+    for (int r = 0; r < cut_row_count(m); ++r) set_lane(at(w.schur_rhs, r), i, b[r]);
+  }
+}
+
+}  // namespace linkstudy
