@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "study/cli/exit_code.h"
 #include "study/cli/output.h"
@@ -100,6 +101,16 @@ int print_result(const StudySession& session, const tuning::TuningResult& result
   return result.status == tuning::TuningStatus::certified ? kDone : kNotTuned;
 }
 
+// Interrupted, or with too many failures: no answer yet.
+int print_unfinished(StudySession& session, const StudyEnd& end) {
+  if (!session.line().json) return end.code;
+  const nlohmann::ordered_json json = {{"status", end.status},
+                                       {"evaluations", session.record().evaluations().size()},
+                                       {"digest", end.digest}};
+  print_out(json.dump() + "\n");
+  return end.code;
+}
+
 int run(StudySession& session) {
   const StudyInput& input = session.evaluator().input();
   const tuning::TuningProblem problem = make_problem(session.evaluator());
@@ -114,7 +125,7 @@ int run(StudySession& session) {
     session.record().set_tuning(slug_of(input.name), tuning::write_json(*result, ""),
                                 make_tuning_group(*result));
   });
-  return result ? print_result(session, *result, end.digest) : end.code;
+  return result ? print_result(session, *result, end.digest) : print_unfinished(session, end);
 }
 
 }  // namespace

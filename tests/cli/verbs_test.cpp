@@ -259,7 +259,10 @@ TEST_F(Verbs, Tune_certifies_a_stiffness_and_replays_it_from_the_journal) {
 }
 
 TEST_F(Verbs, Status_of_a_tune_counts_to_its_budget_until_it_has_its_answer) {
-  ASSERT_EQ(run("tune tune.toml -o out -s search.max_evaluations=150 --walltime 0.12").code, 75);
+  const Ended cut =
+      run("tune tune.toml -o out -s search.max_evaluations=150 --walltime 0.12 --json");
+  ASSERT_EQ(cut.code, 75) << cut.err;
+  EXPECT_EQ(json::parse(cut.out)["status"], "interrupted");
   const json before = json::parse(run("status out --json").out);
   EXPECT_EQ(before["total"], 150);
   EXPECT_LT(before["done"], 150);
