@@ -47,19 +47,20 @@ inline Real cosine_polynomial(Real r, Real tail, Real z) {
 
 template <class Real>
 inline SinCos<Real> sincos(Real x) {
-  const Real n = madd(x, Real(6.36619772367581382433e-01), Real(detail::kRound)) - detail::kRound;
+  const Real round(detail::kRound);
+  const Real n = madd(x, Real(6.36619772367581382433e-01), round) - round;
   // r + tail = x - n pi/2 to about 70 bits
   const Real head = nmadd(n, Real(detail::kPi2a), x);
   const Real middle = n * Real(detail::kPi2b);
   const Real rest = head - middle;
-  const Real low = ((head - rest) - middle) - n * Real(detail::kPi2c);
+  const Real low = nmadd(n, Real(detail::kPi2c), (head - rest) - middle);
   const Real r = rest + low;
   const Real tail = (rest - r) + low;
   const Real z = r * r;
   const Real s = detail::sine_polynomial(r, tail, z);
   const Real c = detail::cosine_polynomial(r, tail, z);
   // Quadrant n mod 4 in -2..2 without integers: sign flips and the swap of sine and cosine.
-  const Real turns = madd(n, Real(0.25), Real(detail::kRound)) - detail::kRound;
+  const Real turns = madd(n, Real(0.25), round) - round;
   const Real quarter = madd(turns, Real(-4.0), n);
   const auto odd = abs(quarter) == Real(1.0);
   const auto half = abs(quarter) == Real(2.0);

@@ -53,4 +53,15 @@ inline bool is_finite(double a) {
   return std::fabs(a) <= 1.7976931348623157e308;
 }
 
+// Lanes: a double is its own single lane. Bit i of lane_bits is set where lane i is true.
+inline unsigned lane_bits(bool mask) {
+  return mask ? 1u : 0u;
+}
+inline double lane(double a, int) {
+  return a;
+}
+inline void set_lane(double& a, int, double x) {
+  a = x;
+}
+
 }  // namespace linkstudy

@@ -14,8 +14,7 @@ struct ClosureWrench {
 };
 
 template <class Real>
-inline ClosureWrench<Real> compute_closure_wrench(const Workspace<Real>& w, int closure) {
-  const ClosureState<Real>& x = w.closures[static_cast<std::size_t>(closure)];
+inline ClosureWrench<Real> compute_closure_wrench(const ClosureState<Real>& x) {
   const Vec3<Real> gap = x.p2 - x.p1;
   return {x.force_points + x.force_second, x.couple + cross(gap, x.force_second), gap};
 }

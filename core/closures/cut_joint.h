@@ -7,8 +7,6 @@
 // of least norm; Workspace::row_inverse tells them.
 #pragma once
 
-#include <type_traits>
-
 #include "core/kinematics/closure_jacobian.h"
 #include "core/numerics/branch_sparse.h"
 #include "core/numerics/semidefinite.h"
@@ -21,80 +19,75 @@ namespace linkstudy {
 inline constexpr double kDependentRow = 1e-10;
 
 // Rows of J of one closure, zero off its support.
-template <class Real>
-inline void update_closure_jacobian(const Mechanism& m, const Parameters<Real>& p,
-                                    const Workspace<Real>& w, std::size_t closure, Real* j) {
-  const ClosureStructure& c = m.closures[closure];
+template <class M, class C, class Real>
+inline void update_closure_jacobian(const M& m, const Parameters<Real>& p,
+                                    const Workspace<Real, M>& w, C closure, Real* j) {
   const int nv = m.nv;
-  const int rows = c.row_end - c.row_begin;
-  for (int n = 0; n < rows; ++n) {
-    for (int k : c.support) j[n * nv + k] = Real(0.0);
-  }
-  int n = 0;
-  if (c.point_rows) {
-    add_point_rates(m, p, w, c.last_1, w.closures[closure].p1, true, j);
-    add_point_rates(m, p, w, c.last_2, w.closures[closure].p2, false, j);
-    n = 3;
-  }
-  for (; n < rows; ++n) {
-    const auto r = static_cast<std::size_t>(c.row_begin + n);
-    add_row_rates(m, p, w, m.cut_rows[r], w.cut_rows[r], j + n * nv);
-  }
+  const int begin = row_begin(m, closure);
+  for_rows(m, closure, [&](auto r) {
+    for_support(m, closure, [&](auto k) { j[(r - begin) * nv + k] = Real(0.0); });
+  });
+  if (at(m.closures, closure).point_rows) add_point_rates(m, p, w, closure, j);
+  for_other_rows(m, closure, [&](auto r) {
+    add_row_rates(m, p, w, closure, at(m.cut_rows, r), at(w.cut_rows, r), j + (r - begin) * nv);
+  });
 }
 
 // Y = L^-T J^T by rows.
-template <class Real>
-inline void update_constraint_factor(const Mechanism& m, const Parameters<Real>& p,
-                                     Workspace<Real>& w) {
+template <class M, class Real>
+inline void update_constraint_factor(const M& m, const Parameters<Real>& p, Workspace<Real, M>& w) {
   const Real* h = w.mass.data();
-  const int* parent = m.v_parent.data();
   const int nv = m.nv;
-  for (std::size_t i = 0; i < m.closures.size(); ++i) {
-    const ClosureStructure& c = m.closures[i];
-    if (c.model != ClosureModel::cut) continue;
-    Real* y = w.cut_y.data() + c.row_begin * nv;
-    update_closure_jacobian(m, p, w, i, y);
-    const int rows = c.row_end - c.row_begin;
-    for (int k : c.support) {
-      for (int a = parent[k]; a >= 0; a = parent[a]) {
+  for_closures<ClosureModel::cut>(m, [&](auto c) {
+    Real* y = w.cut_y.data();
+    update_closure_jacobian(m, p, w, c, y + row_begin(m, c) * nv);
+    for_support(m, c, [&](auto k) {
+      for_ancestors(m, k, [&](auto a) {
         const Real l = h[k * nv + a];
-        for (int n = 0; n < rows; ++n) y[n * nv + a] = nmadd(l, y[n * nv + k], y[n * nv + a]);
-      }
-    }
-  }
+        for_rows(m, c, [&](auto r) { y[r * nv + a] = nmadd(l, y[r * nv + k], y[r * nv + a]); });
+      });
+    });
+  });
 }
 
 // Calls f with the number of cut rows, as a constant for the commonest: one spherical joint.
-template <class F>
-inline void with_row_count(const Mechanism& m, F&& f) {
-  const int nc = m.cut_row_count();
-  if (nc == 3) {
-    f(std::integral_constant<int, 3>());
+template <class M, class F>
+inline void with_row_count(const M& m, F&& f) {
+  const auto nc = cut_row_count(m);
+  if constexpr (Constant<decltype(cut_row_count(m))>) {
+    f(nc);
+  } else if (nc == 3) {
+    f(Index<3>());
   } else {
     f(nc);
   }
 }
 
-// A = Y^T D^-1 Y, (nc, nc), summed over the velocities that reach some closure.
-template <class Size, class Real>
-inline void sum_schur_complement(Size nc, const Mechanism& m, Workspace<Real>& w) {
-  const int nv = m.nv;
-  const Real* inverse_pivot = w.inverse_pivot.data();
-  const Real* y = w.cut_y.data();
-  Real* a = w.schur.data();
-  for (int r = 0; r < nc; ++r) {
-    const auto row = static_cast<std::size_t>(r);
-    const ClosureStructure& c = m.closures[static_cast<std::size_t>(m.cut_rows[row].closure)];
-    for (int s = 0; s <= r; ++s) {
-      Real sum(0.0);
-      for (int k : c.support) sum = madd(y[r * nv + k] * inverse_pivot[k], y[s * nv + k], sum);
-      a[r * nc + s] = sum;
-    }
-  }
+// The closure of a row.
+template <class M, class R>
+inline auto closure_of(const M& m, R r) {
+  return structural(m, r, [](const auto& s, int i) { return at(s.cut_rows, i).closure; });
 }
 
-template <class Real>
-inline void update_schur_complement(const Mechanism& m, Workspace<Real>& w) {
+// A = Y^T D^-1 Y, (nc, nc), summed over the velocities that reach some closure.
+template <class Size, class M, class Real>
+inline void sum_schur_complement(Size nc, const M& m, Workspace<Real, M>& w) {
+  const int nv = m.nv;
+  const Real* y = w.cut_y.data();
+  Real* a = w.schur.data();
+  for_range(Index<0>(), nc, [&](auto r) {
+    for_range(Index<0>(), successor(r), [&](auto s) {
+      Real sum(0.0);
+      for_support(m, closure_of(m, r), [&](auto k) {
+        sum = madd(y[r * nv + k] * at(w.inverse_pivot, k), y[s * nv + k], sum);
+      });
+      a[r * nc + s] = sum;
+    });
+  });
+}
+
+template <class M, class Real>
+inline void update_schur_complement(const M& m, Workspace<Real, M>& w) {
   with_row_count(m, [&](auto nc) {
     sum_schur_complement(nc, m, w);
     w.redundant =
@@ -103,10 +96,10 @@ inline void update_schur_complement(const Mechanism& m, Workspace<Real>& w) {
 }
 
 // schur_rhs := A^-1 schur_rhs
-template <class Real>
-inline void solve_schur(const Mechanism& m, Workspace<Real>& w) {
+template <class M, class Real>
+inline void solve_schur(const M& m, Workspace<Real, M>& w) {
   if (w.redundant) {
-    solve_least_norm(m.cut_row_count(), w.schur.data(), w.row_inverse.data(), w.gram.data(),
+    solve_least_norm(cut_row_count(m), w.schur.data(), w.row_inverse.data(), w.gram.data(),
                      w.scratch.data(), w.schur_rhs.data());
     return;
   }
@@ -116,50 +109,42 @@ inline void solve_schur(const Mechanism& m, Workspace<Real>& w) {
 }
 
 // Y^T D^-1 x for row r
-template <class Real>
-inline Real project_on_row(const Mechanism& m, const Workspace<Real>& w, int r, const Real* x) {
-  const ClosureStructure& c =
-      m.closures[static_cast<std::size_t>(m.cut_rows[static_cast<std::size_t>(r)].closure)];
+template <class M, class R, class Real>
+inline Real project_on_row(const M& m, const Workspace<Real, M>& w, R r, const Real* x) {
   const Real* y = w.cut_y.data() + r * m.nv;
   Real sum(0.0);
-  for (int k : c.support) {
-    sum = madd(y[k] * w.inverse_pivot[static_cast<std::size_t>(k)], x[k], sum);
-  }
+  for_support(m, closure_of(m, r),
+              [&](auto k) { sum = madd(y[k] * at(w.inverse_pivot, k), x[k], sum); });
   return sum;
 }
 
 // x := x - Y schur_rhs
-template <class Real>
-inline void subtract_constraint_forces(const Mechanism& m, const Workspace<Real>& w, Real* x) {
-  for (std::size_t r = 0; r < m.cut_rows.size(); ++r) {
-    const ClosureStructure& c = m.closures[static_cast<std::size_t>(m.cut_rows[r].closure)];
-    const Real* y = w.cut_y.data() + r * static_cast<std::size_t>(m.nv);
-    const Real lambda = w.schur_rhs[r];
-    for (int k : c.support) x[k] = nmadd(lambda, y[k], x[k]);
-  }
+template <class M, class Real>
+inline void subtract_constraint_forces(const M& m, const Workspace<Real, M>& w, Real* x) {
+  for_range(Index<0>(), cut_row_count(m), [&](auto r) {
+    const Real* y = w.cut_y.data() + r * m.nv;
+    const Real lambda = at(w.schur_rhs, r);
+    for_support(m, closure_of(m, r), [&](auto k) { x[k] = nmadd(lambda, y[k], x[k]); });
+  });
 }
 
 // Multipliers for L^-T tau in Workspace::y; leaves L^-T (tau - J^T lambda) there.
-template <class Real>
-inline void solve_cut_joints(const Mechanism& m, const Parameters<Real>& p, Workspace<Real>& w) {
+template <class M, class Real>
+inline void solve_cut_joints(const M& m, const Parameters<Real>& p, Workspace<Real, M>& w) {
   if (m.cut_rows.empty()) return;
-  update_rows(m, p, ClosureModel::cut, w);
+  update_rows<ClosureModel::cut>(m, p, w);
   update_constraint_factor(m, p, w);
   update_schur_complement(m, w);
-  for (int r = 0; r < m.cut_row_count(); ++r) {
-    const auto i = static_cast<std::size_t>(r);
-    const RowState<Real>& row = w.cut_rows[i];
-    const auto& n = p.closures[static_cast<std::size_t>(m.cut_rows[i].closure)];
+  for_range(Index<0>(), cut_row_count(m), [&](auto r) {
+    const RowState<Real>& row = at(w.cut_rows, r);
+    const ClosureParameters<Real>& n = at(p.closures, closure_of(m, r));
     const Real stabilized = madd(n.velocity_gain, row.rate, madd(n.position_gain, row.d, row.bias));
-    w.schur_rhs[i] = project_on_row(m, w, r, w.y.data()) + stabilized;
-  }
+    at(w.schur_rhs, r) = project_on_row(m, w, r, w.y.data()) + stabilized;
+  });
   solve_schur(m, w);
-  for (std::size_t r = 0; r < m.cut_rows.size(); ++r) w.cut_rows[r].value = w.schur_rhs[r];
-  for (std::size_t i = 0; i < m.closures.size(); ++i) {
-    const ClosureStructure& c = m.closures[i];
-    if (c.model != ClosureModel::cut) continue;
-    sum_row_forces(c, m.cut_rows.data(), w.cut_rows.data(), w.closures[i]);
-  }
+  for_range(Index<0>(), cut_row_count(m),
+            [&](auto r) { at(w.cut_rows, r).value = at(w.schur_rhs, r); });
+  sum_row_forces<ClosureModel::cut>(m, w);
   subtract_constraint_forces(m, w, w.y.data());
 }
 

@@ -4,33 +4,37 @@
 #pragma once
 
 #include "core/model/parameters.h"
+#include "core/model/walk.h"
 #include "core/model/workspace.h"
 
 namespace linkstudy {
 
 template <class Real>
 struct Energy {
-  Real kinetic;    // J
-  Real potential;  // J
+  Real kinetic;  // J
+  Real height;   // potential energy of weight, J
+  Real elastic;  // of replacement joints, J
+
+  Real potential() const { return height + elastic; }
 };
 
-template <class Real>
-inline Energy<Real> compute_energy(const Mechanism& m, const Parameters<Real>& p,
-                                   const Workspace<Real>& w) {
-  Energy<Real> e{Real(0.0), Real(0.0)};
-  for (std::size_t b = 1; b < w.bodies.size(); ++b) {
-    const BodyState<Real>& s = w.bodies[b];
+template <class M, class Real>
+inline Energy<Real> compute_energy(const M& m, const Parameters<Real>& p,
+                                   const Workspace<Real, M>& w) {
+  Energy<Real> e{Real(0.0), Real(0.0), Real(0.0)};
+  for_bodies(m, [&](auto b) {
+    const BodyState<Real>& s = at(w.bodies, b);
     const Inertia<Real>& i = s.inertia;
     // 1/2 m v.v + v.(omega x h) + 1/2 omega.I omega
     Real twice = dot(s.v, madd(i.m, s.v, Real(2.0) * cross(s.omega, i.h)));
-    if (m.bodies[b].rotates) twice = twice + dot(s.omega, i.i * s.omega);
+    if (at(m.bodies, b).rotates) twice = twice + dot(s.omega, i.i * s.omega);
     e.kinetic = madd(Real(0.5), twice, e.kinetic);
-    e.potential = e.potential - dot(p.gravity, madd(i.m, s.p, i.h));
-  }
-  for (std::size_t i = 0; i < w.sde_rows.size(); ++i) {
-    const Real d = w.sde_rows[i].d;
-    e.potential = madd(Real(0.5) * p.springs[i].stiffness * d, d, e.potential);
-  }
+    e.height = e.height - dot(p.gravity, madd(i.m, s.p, i.h));
+  });
+  for_range(Index<0>(), sde_row_count(m), [&](auto i) {
+    const Real d = at(w.sde_rows, i).d;
+    e.elastic = madd(Real(0.5) * at(p.springs, i).stiffness * d, d, e.elastic);
+  });
   return e;
 }
 

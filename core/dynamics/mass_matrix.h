@@ -6,6 +6,7 @@
 #pragma once
 
 #include "core/model/parameters.h"
+#include "core/model/walk.h"
 #include "core/model/workspace.h"
 
 namespace linkstudy {
@@ -29,12 +30,11 @@ inline Wrench<Real> inertial_wrench(const Body& body, const BodyState<Real>& s) 
   return w;
 }
 
-template <class Real>
-inline void update_inertial_wrenches(const Mechanism& m, Workspace<Real>& w) {
-  const Body* structure = m.bodies.data();
-  BodyState<Real>* bodies = w.bodies.data();
-  const int nb = m.body_count();
-  for (int b = 1; b < nb; ++b) bodies[b].wrench = inertial_wrench(structure[b], bodies[b]);
+template <class M, class Real>
+inline void update_inertial_wrenches(const M& m, Workspace<Real, M>& w) {
+  for_bodies(m, [&](auto b) {
+    at(w.bodies, b).wrench = inertial_wrench(at(m.bodies, b), at(w.bodies, b));
+  });
 }
 
 // Generalised force of a wrench on a velocity with this axis.
@@ -71,28 +71,21 @@ inline void pass_to_parent(const Body& body, const BodyState<Real>& s, bool pare
 }
 
 // Tips to ground: tau less bias, and composite inertias.
-template <class Real>
-inline void update_bias(const Mechanism& m, const Parameters<Real>& p, Workspace<Real>& w) {
-  const Body* structure = m.bodies.data();
-  const Velocity* velocities = m.velocities.data();
-  const Real* pitch = p.pitch.data();
-  const Vec3<Real>* axes = w.axes.data();
-  BodyState<Real>* bodies = w.bodies.data();
-  Real* tau = w.tau.data();
-  const int nb = m.body_count();
-  for (int b = 1; b < nb; ++b) {
-    if (structure[b].carries) bodies[b].composite = bodies[b].inertia;
-  }
-  for (int b = nb - 1; b > 0; --b) {
-    const Body& body = structure[b];
-    const BodyState<Real>& s = bodies[b];
-    const int end = body.v_begin + body.v_count;
-    for (int k = body.v_begin; k < end; ++k) {
-      tau[k] = tau[k] - work_rate(velocities[k], pitch, axes[k], s.wrench);
-    }
-    if (body.parent == 0) continue;
-    pass_to_parent(body, s, structure[body.parent].rotates, bodies[body.parent]);
-  }
+template <class M, class Real>
+inline void update_bias(const M& m, const Parameters<Real>& p, Workspace<Real, M>& w) {
+  for_bodies(m, [&](auto b) {
+    if (at(m.bodies, b).carries) at(w.bodies, b).composite = at(w.bodies, b).inertia;
+  });
+  for_bodies_inwards(m, [&](auto b) {
+    const Body& body = at(m.bodies, b);
+    const BodyState<Real>& s = at(w.bodies, b);
+    for_velocities_of(m, b, [&](auto k) {
+      at(w.tau, k) =
+          at(w.tau, k) - work_rate(at(m.velocities, k), p.pitch.data(), at(w.axes, k), s.wrench);
+    });
+    if (body.parent == 0) return;
+    pass_to_parent(body, s, at(m.bodies, body.parent).rotates, at(w.bodies, body.parent));
+  });
 }
 
 // Wrench that accelerates a composite by one unit of a velocity.
@@ -110,29 +103,23 @@ inline Wrench<Real> unit_wrench(const Velocity& k, const Real* pitch, const Vec3
 }
 
 // Lower triangle of M on the paths to ground; entries off the paths are never touched.
-template <class Real>
-inline void update_mass_matrix(const Mechanism& m, const Parameters<Real>& p, Workspace<Real>& w) {
-  const int nv = m.nv;
-  const Body* structure = m.bodies.data();
-  const Velocity* velocities = m.velocities.data();
+template <class M, class Real>
+inline void update_mass_matrix(const M& m, const Parameters<Real>& p, Workspace<Real, M>& w) {
   const Real* pitch = p.pitch.data();
-  const Vec3<Real>* axes = w.axes.data();
-  const BodyState<Real>* bodies = w.bodies.data();
-  Real* row = w.mass.data();
-  for (int k = 0; k < nv; ++k, row += nv) {
-    const Velocity& velocity = velocities[k];
-    int b = velocity.body;
-    Wrench<Real> f = unit_wrench(velocity, pitch, axes[k], composite_of(structure[b], bodies[b]));
-    int i = k;
-    while (true) {
-      const Body& body = structure[b];
-      for (; i >= body.v_begin; --i) row[i] = work_rate(velocities[i], pitch, axes[i], f);
-      if (body.parent == 0) break;
-      if (body.shifted) f.moment = f.moment + cross(bodies[b].shift, f.force);
-      b = body.parent;
-      i = structure[b].v_begin + structure[b].v_count - 1;
-    }
-  }
+  for_velocities(m, [&](auto k) {
+    const auto tip = body_of(m, k);
+    Real* row = &at(w.mass, k * m.nv);
+    Wrench<Real> f = unit_wrench(at(m.velocities, k), pitch, at(w.axes, k),
+                                 composite_of(at(m.bodies, tip), at(w.bodies, tip)));
+    for_bodies_to_ground(m, tip, [&](auto b) {
+      const Body& body = at(m.bodies, b);
+      for_velocities_of(m, b, [&](auto i) {
+        if (i <= k) row[i] = work_rate(at(m.velocities, i), pitch, at(w.axes, i), f);
+      });
+      if (body.parent == 0 || !body.shifted) return;
+      f.moment = f.moment + cross(at(w.bodies, b).shift, f.force);
+    });
+  });
 }
 
 }  // namespace linkstudy

@@ -13,63 +13,84 @@ namespace linkstudy {
 
 // Accelerations with qdd: what each velocity adds is alpha += e qdd (rotation), a += e qdd
 // (translation), carried outwards by a += alpha x shift.
-template <class Real>
-inline void add_joint_accelerations(const Mechanism& m, const Parameters<Real>& p,
-                                    const Workspace<Real>& w, std::size_t b,
-                                    std::vector<BodyState<Real>>& moving) {
-  const Body& body = m.bodies[b];
-  const auto parent = static_cast<std::size_t>(body.parent);
-  BodyState<Real>& s = moving[b];
-  const BodyState<Real>& sp = moving[parent];
-  Vec3<Real> alpha = sp.alpha - w.bodies[parent].alpha;
-  Vec3<Real> a = sp.a - w.bodies[parent].a + cross(alpha, w.bodies[b].p - w.bodies[parent].p);
-  for (int k = body.v_begin; k < body.v_begin + body.v_count; ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    const Vec3<Real> e = w.qdd[i] * w.axes[i];
-    if (m.velocities[i].kind == VelocityKind::translation) {
+template <class M, class B, class Real, class Bodies>
+inline void add_joint_accelerations(const M& m, const Parameters<Real>& p,
+                                    const Workspace<Real, M>& w, B b, Bodies& moving) {
+  const auto parent = parent_of(m, b);
+  BodyState<Real>& s = at(moving, b);
+  const BodyState<Real>& sp = at(moving, parent);
+  const BodyState<Real>& wp = at(w.bodies, parent);
+  Vec3<Real> alpha = sp.alpha - wp.alpha;
+  Vec3<Real> a = sp.a - wp.a + cross(alpha, at(w.bodies, b).p - wp.p);
+  for_velocities_of(m, b, [&](auto k) {
+    const Velocity& velocity = at(m.velocities, k);
+    const Vec3<Real> e = at(w.qdd, k) * at(w.axes, k);
+    if (velocity.kind == VelocityKind::translation) {
       a = a + e;
-      continue;
+      return;
     }
     alpha = alpha + e;
-    if (m.velocities[i].kind == VelocityKind::screw) {
-      a = madd(p.pitch[static_cast<std::size_t>(m.velocities[i].stage)], e, a);
-    }
-  }
+    if (velocity.kind == VelocityKind::screw) a = madd(at(p.pitch, velocity.stage), e, a);
+  });
   s.alpha = s.alpha + alpha;
   s.a = s.a + a;
 }
 
-// reactions: (nb), [0] the sum on ground, about its origin. moving: (nb) scratch.
-template <class Real>
-inline void update_reactions(const Mechanism& m, const Parameters<Real>& p,
-                             const Workspace<Real>& w, std::vector<BodyState<Real>>& moving,
-                             std::vector<Wrench<Real>>& reactions) {
-  const auto nb = m.bodies.size();
-  moving = w.bodies;
-  reactions[0] = {zero3<Real>(), zero3<Real>()};
-  for (std::size_t b = 1; b < nb; ++b) {
-    add_joint_accelerations(m, p, w, b, moving);
-    Body body = m.bodies[b];
+// Scratch and result of `update_reactions`.
+template <class Real, class M = Mechanism>
+struct Reactions {
+  Array<BodyState<Real>, Counts<M>::bodies> moving;  // (nb) bodies with their true accelerations
+  Array<Wrench<Real>, Counts<M>::bodies> on_child;  // (nb), [0] the sum on ground, about its origin
+};
+
+template <class Real, class M>
+inline Reactions<Real, M> make_reactions(const M& m) {
+  Reactions<Real, M> r{};
+  if constexpr (!FixedStructure<M>) {
+    r.moving.resize(m.bodies.size());
+    r.on_child.resize(m.bodies.size());
+  }
+  return r;
+}
+
+// What moves a body, less what acts on it beside joints.
+template <class M, class Real>
+inline void sum_free_body_wrenches(const M& m, const Parameters<Real>& p,
+                                   const Workspace<Real, M>& w, Reactions<Real, M>& r) {
+  r.moving = w.bodies;
+  at(r.on_child, 0) = {zero3<Real>(), zero3<Real>()};
+  for_bodies(m, [&](auto b) {
+    add_joint_accelerations(m, p, w, b, r.moving);
+    Body body = at(m.bodies, b);
     body.gyrates = body.rotates;  // alpha is no longer that of qdd = 0
-    reactions[b] = inertial_wrench(body, moving[b]);
-  }
-  for (std::size_t i = 0; i < m.loads.size(); ++i) {
-    if (m.loads[i].body < 0) continue;
-    Wrench<Real>& r = reactions[static_cast<std::size_t>(m.loads[i].body)];
-    r.force = r.force - w.link_loads[i].force;
-    r.moment = r.moment - w.link_loads[i].moment;
-  }
-  for (std::size_t i = 0; i < m.closures.size(); ++i) {
-    const ClosureStructure& c = m.closures[i];
-    subtract_closure_forces(c, w.closures[i], w.bodies.data(),
-                            reactions[static_cast<std::size_t>(c.first)],
-                            reactions[static_cast<std::size_t>(c.second)]);
-  }
-  for (std::size_t b = nb - 1; b > 0; --b) {
-    const auto parent = static_cast<std::size_t>(m.bodies[b].parent);
-    add_force(reactions[parent], w.bodies[b].p - w.bodies[parent].p, reactions[b].force);
-    reactions[parent].moment = reactions[parent].moment + reactions[b].moment;
-  }
+    at(r.on_child, b) = inertial_wrench(body, at(r.moving, b));
+  });
+  for_loads(m, [&](auto i) {
+    const int body = at(m.loads, i).body;
+    if (body < 0) return;
+    Wrench<Real>& sum = at(r.on_child, body);
+    sum.force = sum.force - at(w.link_loads, i).force;
+    sum.moment = sum.moment - at(w.link_loads, i).moment;
+  });
+  const auto subtract = [&](auto i) {
+    const ClosureStructure& c = at(m.closures, i);
+    subtract_closure_forces(c, at(w.closures, i), w.bodies.data(), at(r.on_child, c.first),
+                            at(r.on_child, c.second));
+  };
+  for_closures<ClosureModel::cut>(m, subtract);
+  for_closures<ClosureModel::sde>(m, subtract);
+}
+
+template <class M, class Real>
+inline void update_reactions(const M& m, const Parameters<Real>& p, const Workspace<Real, M>& w,
+                             Reactions<Real, M>& r) {
+  sum_free_body_wrenches(m, p, w, r);
+  for_bodies_inwards(m, [&](auto b) {
+    const auto parent = parent_of(m, b);
+    Wrench<Real>& sum = at(r.on_child, parent);
+    add_force(sum, at(w.bodies, b).p - at(w.bodies, parent).p, at(r.on_child, b).force);
+    sum.moment = sum.moment + at(r.on_child, b).moment;
+  });
 }
 
 }  // namespace linkstudy

@@ -30,25 +30,25 @@ inline Real course_value(const LoadStructure& s, const LoadParameters<Real>& n,
   return value;
 }
 
-template <class Real>
-inline void add_drive(const LoadStructure& s, Real value, const Real* v, Workspace<Real>& w) {
-  w.tau[static_cast<std::size_t>(s.v)] = w.tau[static_cast<std::size_t>(s.v)] + value;
+template <class M, class Real>
+inline void add_drive(const LoadStructure& s, Real value, const Real* v, Workspace<Real, M>& w) {
+  at(w.tau, s.v) = at(w.tau, s.v) + value;
   w.supplied_power = madd(value, v[s.v], w.supplied_power);
 }
 
-template <class Real>
+template <class M, class Real>
 inline void add_resistance(const LoadStructure& s, Real coefficient, const Real* v,
-                           Workspace<Real>& w) {
+                           Workspace<Real, M>& w) {
   const Real value = s.law == ResistanceShape::linear ? linear_resistance(v[s.v], coefficient)
                                                       : quadratic_resistance(v[s.v], coefficient);
-  w.tau[static_cast<std::size_t>(s.v)] = w.tau[static_cast<std::size_t>(s.v)] - value;
+  at(w.tau, s.v) = at(w.tau, s.v) - value;
   w.dissipated_power = madd(value, v[s.v], w.dissipated_power);
 }
 
-template <class Real>
+template <class M, class Real>
 inline void add_link_load(const LoadStructure& s, const LoadParameters<Real>& n, Real value,
-                          Workspace<Real>& w, Wrench<Real>& load) {
-  BodyState<Real>& b = w.bodies[static_cast<std::size_t>(s.body)];
+                          Workspace<Real, M>& w, Wrench<Real>& load) {
+  BodyState<Real>& b = at(w.bodies, s.body);
   const Vec3<Real> e = value * (s.follows_link ? b.r * n.direction : n.direction);
   load = {e, zero3<Real>()};
   if (s.type == LoadType::link_force) load = {cross(b.r * n.point, e), e};
@@ -57,51 +57,47 @@ inline void add_link_load(const LoadStructure& s, const LoadParameters<Real>& n,
   w.supplied_power = w.supplied_power + dot(b.v, load.force) + dot(b.omega, load.moment);
 }
 
-template <class Real>
-inline void add_loads(const Mechanism& m, const Parameters<Real>& p, double t, const Real* v,
-                      Workspace<Real>& w) {
-  for (std::size_t i = 0; i < m.loads.size(); ++i) {
-    const LoadStructure& s = m.loads[i];
-    const LoadParameters<Real>& n = p.loads[i];
-    if (s.type == LoadType::resistance) {
-      add_resistance(s, n.value, v, w);
-      continue;
-    }
+template <class M, class Real>
+inline void add_loads(const M& m, const Parameters<Real>& p, double t, const Real* v,
+                      Workspace<Real, M>& w) {
+  for_loads(m, [&](auto i) {
+    const LoadStructure& s = at(m.loads, i);
+    const LoadParameters<Real>& n = at(p.loads, i);
+    if (s.type == LoadType::resistance) return add_resistance(s, n.value, v, w);
     const Real value = course_value(s, n, p.segments.data(), t);
     if (s.type == LoadType::drive) {
       add_drive(s, value, v, w);
     } else {
-      add_link_load(s, n, value, w, w.link_loads[i]);
+      add_link_load(s, n, value, w, at(w.link_loads, i));
     }
-  }
+  });
 }
 
 // Spring-damping elements: f = c d + b d_dot along each row, on chain 1 ([Urbas16] eqs. (5), (14)).
-template <class Real>
-inline void add_sdes(const Mechanism& m, const Parameters<Real>& p, Workspace<Real>& w) {
-  if (m.sde_rows.empty()) return;
-  update_rows(m, p, ClosureModel::sde, w);
-  for (std::size_t i = 0; i < m.sde_rows.size(); ++i) {
-    RowState<Real>& row = w.sde_rows[i];
-    const Real damping_force = p.springs[i].damping * row.rate;
-    row.value = madd(p.springs[i].stiffness, row.d, damping_force);
+template <class M, class Real>
+inline void add_sdes(const M& m, const Parameters<Real>& p, Workspace<Real, M>& w) {
+  update_rows<ClosureModel::sde>(m, p, w);
+  for_range(Index<0>(), sde_row_count(m), [&](auto i) {
+    RowState<Real>& row = at(w.sde_rows, i);
+    const SpringParameters<Real>& n = at(p.springs, i);
+    const Real damping_force = n.damping * row.rate;
+    row.value = madd(n.stiffness, row.d, damping_force);
     w.dissipated_power = madd(damping_force, row.rate, w.dissipated_power);
-  }
+  });
+  sum_row_forces<ClosureModel::sde>(m, w);
   BodyState<Real>* bodies = w.bodies.data();
-  for (std::size_t i = 0; i < m.closures.size(); ++i) {
-    const ClosureStructure& c = m.closures[i];
-    if (c.model != ClosureModel::sde) continue;
-    sum_row_forces(c, m.sde_rows.data(), w.sde_rows.data(), w.closures[i]);
-    subtract_closure_forces(c, w.closures[i], bodies, bodies[c.first].wrench,
+  for_closures<ClosureModel::sde>(m, [&](auto i) {
+    const ClosureStructure& c = at(m.closures, i);
+    subtract_closure_forces(c, at(w.closures, i), bodies, bodies[c.first].wrench,
                             bodies[c.second].wrench);
-  }
+  });
 }
 
 // Precondition: BodyState::wrench holds the inertial wrenches; the forces are taken off them.
-template <class Real>
-inline void update_applied_forces(const Mechanism& m, const Parameters<Real>& p, double t,
-                                  const Real* v, Workspace<Real>& w) {
-  for (Real& x : w.tau) x = Real(0.0);
+template <class M, class Real>
+inline void update_applied_forces(const M& m, const Parameters<Real>& p, double t, const Real* v,
+                                  Workspace<Real, M>& w) {
+  for_velocities(m, [&](auto k) { at(w.tau, k) = Real(0.0); });
   w.supplied_power = Real(0.0);
   w.dissipated_power = Real(0.0);
   add_loads(m, p, t, v, w);

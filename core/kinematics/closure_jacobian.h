@@ -19,41 +19,48 @@ inline Real row_rate(const Velocity& k, const Real* pitch, const Vec3<Real>& axi
 }
 
 // Row r of J: the rates by the velocities on the path of the second body, less those of the first.
-template <class Real>
-inline void add_row_rates(const Mechanism& m, const Parameters<Real>& p, const Workspace<Real>& w,
-                          const Row& r, const RowState<Real>& row, Real* j) {
-  const auto closure = static_cast<std::size_t>(r.closure);
-  const ClosureStructure& c = m.closures[closure];
-  const ClosureState<Real>& x = w.closures[closure];
+template <class M, class C, class Real>
+inline void add_row_rates(const M& m, const Parameters<Real>& p, const Workspace<Real, M>& w,
+                          C closure, const Row& r, const RowState<Real>& row, Real* j) {
+  const ClosureState<Real>& x = at(w.closures, closure);
   const Vec3<Real>& point_1 = acts_at_both_points(r.kind) ? x.p1 : x.p2;
-  const int* parent = m.v_parent.data();
-  const auto rate = [&](int k, const Vec3<Real>& point) {
-    const Velocity& v = m.velocities.data()[k];
-    return row_rate(v, p.pitch.data(), w.axes.data()[k], w.bodies.data()[v.body].p, point, row);
+  const auto rate = [&](auto k, const Vec3<Real>& point) {
+    const Velocity& v = at(m.velocities, k);
+    return row_rate(v, p.pitch.data(), at(w.axes, k), at(w.bodies, v.body).p, point, row);
   };
-  for (int k = c.last_1; k >= 0; k = parent[k]) j[k] = j[k] - rate(k, point_1);
-  for (int k = c.last_2; k >= 0; k = parent[k]) j[k] = j[k] + rate(k, x.p2);
+  for_path_of_first(m, closure, [&](auto k) { j[k] = j[k] - rate(k, point_1); });
+  for_path_of_second(m, closure, [&](auto k) { j[k] = j[k] + rate(k, x.p2); });
 }
 
-// Rows of J for the three ground axes at once: the velocity of a point by each velocity, with a
-// sign; row n of J starts at j + n nv.
-template <class Real>
-inline void add_point_rates(const Mechanism& m, const Parameters<Real>& p, const Workspace<Real>& w,
-                            int last, const Vec3<Real>& point, bool negative, Real* j) {
-  const int* parent = m.v_parent.data();
+// Velocity of a point by a velocity of its path, ground axes.
+template <class M, class K, class Real>
+inline Vec3<Real> point_rate(const M& m, const Parameters<Real>& p, const Workspace<Real, M>& w,
+                             K k, const Vec3<Real>& point) {
+  const Velocity& v = at(m.velocities, k);
+  const Vec3<Real>& e = at(w.axes, k);
+  if (v.kind == VelocityKind::translation) return e;
+  const Vec3<Real> turned = cross(e, point - at(w.bodies, v.body).p);
+  return v.kind == VelocityKind::screw ? madd(at(p.pitch, v.stage), e, turned) : turned;
+}
+
+// Rows of J for the three ground axes at once; row n of J starts at j + n nv.
+template <class M, class C, class Real>
+inline void add_point_rates(const M& m, const Parameters<Real>& p, const Workspace<Real, M>& w,
+                            C closure, Real* j) {
   const int nv = m.nv;
-  for (int k = last; k >= 0; k = parent[k]) {
-    const Velocity& v = m.velocities.data()[k];
-    Vec3<Real> e = w.axes.data()[k];
-    if (v.kind != VelocityKind::translation) {
-      const Vec3<Real> turned = cross(e, point - w.bodies.data()[v.body].p);
-      e = v.kind == VelocityKind::screw ? madd(p.pitch.data()[v.stage], e, turned) : turned;
-    }
-    if (negative) e = Real(-1.0) * e;
+  const ClosureState<Real>& x = at(w.closures, closure);
+  for_path_of_first(m, closure, [&](auto k) {
+    const Vec3<Real> e = point_rate(m, p, w, k, x.p1);
+    j[k] = j[k] - e.x;
+    j[nv + k] = j[nv + k] - e.y;
+    j[2 * nv + k] = j[2 * nv + k] - e.z;
+  });
+  for_path_of_second(m, closure, [&](auto k) {
+    const Vec3<Real> e = point_rate(m, p, w, k, x.p2);
     j[k] = j[k] + e.x;
     j[nv + k] = j[nv + k] + e.y;
     j[2 * nv + k] = j[2 * nv + k] + e.z;
-  }
+  });
 }
 
 // J (rows, nv) of rows whose states a workspace holds.

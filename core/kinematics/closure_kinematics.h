@@ -22,8 +22,8 @@ inline bool acts_at_both_points(RowKind kind) {
   return kind == RowKind::translation_ground || kind == RowKind::spring_ground;
 }
 
-template <class Real>
-inline void update_closure_pose(const Mechanism& m, const ClosureStructure& c,
+template <class M, class Real>
+inline void update_closure_pose(const M& m, const ClosureStructure& c,
                                 const ClosureParameters<Real>& n, const BodyState<Real>* bodies,
                                 ClosureState<Real>& x) {
   const BodyState<Real>& b1 = bodies[c.first];
@@ -34,8 +34,8 @@ inline void update_closure_pose(const Mechanism& m, const ClosureStructure& c,
   x.p2 = b2.p + x.arm_2;
   x.v1 = b1.v;
   x.v2 = b2.v;
-  const bool turns_1 = m.bodies[static_cast<std::size_t>(c.first)].rotates;
-  const bool turns_2 = m.bodies[static_cast<std::size_t>(c.second)].rotates;
+  const bool turns_1 = at(m.bodies, c.first).rotates;
+  const bool turns_2 = at(m.bodies, c.second).rotates;
   if (turns_1) x.v1 = x.v1 + cross(b1.omega, x.arm_1);
   if (turns_2) x.v2 = x.v2 + cross(b2.omega, x.arm_2);
   if (!c.needs_frames) return;
@@ -53,13 +53,11 @@ inline Vec3<Real> point_acceleration(const Body& body, const BodyState<Real>& b,
 }
 
 // a2 - a1 of the closure points for qdd = 0.
-template <class Real>
-inline Vec3<Real> gap_acceleration(const Mechanism& m, const ClosureStructure& c,
+template <class M, class Real>
+inline Vec3<Real> gap_acceleration(const M& m, const ClosureStructure& c,
                                    const BodyState<Real>* bodies, const ClosureState<Real>& x) {
-  return point_acceleration(m.bodies[static_cast<std::size_t>(c.second)], bodies[c.second], x.arm_2,
-                            x.v2) -
-         point_acceleration(m.bodies[static_cast<std::size_t>(c.first)], bodies[c.first], x.arm_1,
-                            x.v1);
+  return point_acceleration(at(m.bodies, c.second), bodies[c.second], x.arm_2, x.v2) -
+         point_acceleration(at(m.bodies, c.first), bodies[c.first], x.arm_1, x.v1);
 }
 
 // Gap, its rate and acceleration seen from a frame that turns with the first body.
@@ -154,56 +152,78 @@ inline void update_point_rows(const ClosureState<Real>& x, const Vec3<Real>& acc
   rows[2].bias = acceleration.z;
 }
 
-// Rows of all closures of one model.
-template <class Real>
-inline void update_rows(const Mechanism& m, const Parameters<Real>& p, ClosureModel model,
-                        Workspace<Real>& w) {
-  const bool cut = model == ClosureModel::cut;
-  const Row* rows = cut ? m.cut_rows.data() : m.sde_rows.data();
-  RowState<Real>* states = cut ? w.cut_rows.data() : w.sde_rows.data();
-  const BodyState<Real>* bodies = w.bodies.data();
-  for (std::size_t i = 0; i < m.closures.size(); ++i) {
-    const ClosureStructure& c = m.closures[i];
-    if (c.model != model) continue;
-    ClosureState<Real>& x = w.closures[i];
-    update_closure_pose(m, c, p.closures[i], bodies, x);
-    const Vec3<Real> acceleration = cut ? gap_acceleration(m, c, bodies, x) : zero3<Real>();
-    if (c.point_rows) update_point_rows(x, acceleration, states + c.row_begin);
-    for (int r = c.row_begin + (c.point_rows ? 3 : 0); r < c.row_end; ++r) {
-      update_row(rows[r], x, p.closures[i].springs, bodies[c.first], bodies[c.second], acceleration,
-                 states[r]);
-    }
+template <ClosureModel Model, class M>
+inline const auto& rows_of(const M& m) {
+  if constexpr (Model == ClosureModel::cut) {
+    return m.cut_rows;
+  } else {
+    return m.sde_rows;
+  }
+}
+template <ClosureModel Model, class W>
+inline auto& row_states_of(W& w) {
+  if constexpr (Model == ClosureModel::cut) {
+    return w.cut_rows;
+  } else {
+    return w.sde_rows;
   }
 }
 
-// Sums of value times unit wrench over the rows of a closure, for the bodies and for output.
+// Rows of all closures of one model.
+template <ClosureModel Model, class M, class Real>
+inline void update_rows(const M& m, const Parameters<Real>& p, Workspace<Real, M>& w) {
+  const auto& rows = rows_of<Model>(m);
+  auto& states = row_states_of<Model>(w);
+  const BodyState<Real>* bodies = w.bodies.data();
+  for_closures<Model>(m, [&](auto i) {
+    const ClosureStructure& c = at(m.closures, i);
+    ClosureState<Real>& x = at(w.closures, i);
+    update_closure_pose(m, c, at(p.closures, i), bodies, x);
+    const Vec3<Real> acceleration =
+        Model == ClosureModel::cut ? gap_acceleration(m, c, bodies, x) : zero3<Real>();
+    if (c.point_rows) update_point_rows(x, acceleration, &at(states, c.row_begin));
+    for_other_rows(m, i, [&](auto r) {
+      update_row(at(rows, r), x, at(p.closures, i).springs, bodies[c.first], bodies[c.second],
+                 acceleration, at(states, r));
+    });
+  });
+}
+
 template <class Real>
-inline void sum_row_forces(const ClosureStructure& c, const Row* rows, const RowState<Real>* states,
-                           ClosureState<Real>& x) {
-  x.force_points = x.force_second = x.couple = zero3<Real>();
-  int begin = c.row_begin;
-  if (c.point_rows) {
-    x.force_points = {states[begin].value, states[begin + 1].value, states[begin + 2].value};
-    begin += 3;
+inline void add_row_force(const Row& structure, const RowState<Real>& row, ClosureState<Real>& x) {
+  switch (structure.kind) {
+    case RowKind::translation_ground:
+      if (structure.axis == 0) x.force_points.x = x.force_points.x + row.value;
+      if (structure.axis == 1) x.force_points.y = x.force_points.y + row.value;
+      if (structure.axis == 2) x.force_points.z = x.force_points.z + row.value;
+      return;
+    case RowKind::spring_ground:
+      x.force_points = madd(row.value, row.force, x.force_points);
+      return;
+    case RowKind::rotation:
+      x.couple = madd(row.value, row.couple, x.couple);
+      return;
+    default:
+      x.force_second = madd(row.value, row.force, x.force_second);
   }
-  for (int r = begin; r < c.row_end; ++r) {
-    const RowState<Real>& row = states[r];
-    switch (rows[r].kind) {
-      case RowKind::translation_ground:
-        if (rows[r].axis == 0) x.force_points.x = x.force_points.x + row.value;
-        if (rows[r].axis == 1) x.force_points.y = x.force_points.y + row.value;
-        if (rows[r].axis == 2) x.force_points.z = x.force_points.z + row.value;
-        break;
-      case RowKind::spring_ground:
-        x.force_points = madd(row.value, row.force, x.force_points);
-        break;
-      case RowKind::rotation:
-        x.couple = madd(row.value, row.couple, x.couple);
-        break;
-      default:
-        x.force_second = madd(row.value, row.force, x.force_second);
+}
+
+// Sums of value times unit wrench over the rows of every closure of one model, for the bodies and
+// for output.
+template <ClosureModel Model, class M, class Real>
+inline void sum_row_forces(const M& m, Workspace<Real, M>& w) {
+  const auto& rows = rows_of<Model>(m);
+  const auto& states = row_states_of<Model>(w);
+  for_closures<Model>(m, [&](auto i) {
+    const ClosureStructure& c = at(m.closures, i);
+    ClosureState<Real>& x = at(w.closures, i);
+    x.force_points = x.force_second = x.couple = zero3<Real>();
+    if (c.point_rows) {
+      x.force_points = {at(states, c.row_begin).value, at(states, c.row_begin + 1).value,
+                        at(states, c.row_begin + 2).value};
     }
-  }
+    for_other_rows(m, i, [&](auto r) { add_row_force(at(rows, r), at(states, r), x); });
+  });
 }
 
 // Adds the closure's forces, times -1, to the wrenches that the bodies need: +f on the first body,

@@ -4,6 +4,7 @@
 
 #include "core/kinematics/joint_kinematics.h"
 #include "core/model/parameters.h"
+#include "core/model/walk.h"
 #include "core/model/workspace.h"
 
 namespace linkstudy {
@@ -106,30 +107,26 @@ inline void set_ground(const Parameters<Real>& p, BodyState<Real>& ground) {
   ground.a = Real(-1.0) * p.gravity;
 }
 
-template <class Real>
-inline void update_kinematics(const Mechanism& m, const Parameters<Real>& p, const Real* q,
-                              const Real* v, Workspace<Real>& w) {
-  BodyState<Real>* bodies = w.bodies.data();
-  Vec3<Real>* axes = w.axes.data();
-  set_ground(p, bodies[0]);
-  const int nb = m.body_count();
-  for (int b = 1; b < nb; ++b) {
-    const Body& body = m.bodies[static_cast<std::size_t>(b)];
-    const BodyParameters<Real>& n = p.bodies[static_cast<std::size_t>(b)];
-    const BodyState<Real>& parent = bodies[body.parent];
-    BodyState<Real>& s = bodies[b];
-    Moving<Real> x =
-        start_at_joint_frame(body, n, parent, m.bodies[static_cast<std::size_t>(body.parent)], s);
-    for (int i = body.stage_begin; i < body.stage_end; ++i) {
-      const Stage& stage = m.stages[static_cast<std::size_t>(i)];
-      pass_stage(stage, p.pitch[static_cast<std::size_t>(i)], q + stage.q, v + stage.v, x,
-                 axes + stage.v);
-    }
+template <class M, class Real>
+inline void update_kinematics(const M& m, const Parameters<Real>& p, const Real* q, const Real* v,
+                              Workspace<Real, M>& w) {
+  set_ground(p, at(w.bodies, 0));
+  for_bodies(m, [&](auto b) {
+    const Body& body = at(m.bodies, b);
+    const BodyParameters<Real>& n = at(p.bodies, b);
+    const auto parent_index = parent_of(m, b);
+    const BodyState<Real>& parent = at(w.bodies, parent_index);
+    BodyState<Real>& s = at(w.bodies, b);
+    Moving<Real> x = start_at_joint_frame(body, n, parent, at(m.bodies, parent_index), s);
+    for_stages(m, b, [&](auto i) {
+      const Stage& stage = at(m.stages, i);
+      pass_stage(stage, at(p.pitch, i), q + stage.q, v + stage.v, x, &at(w.axes, stage.v));
+    });
     if (body.shifted) s.shift = s.p - parent.p;
     s.inertia.m = n.mass;
     s.inertia.h = rotate(s.r, n.moment, body.center);
     if (body.rotates) s.inertia.i = world_inertia(body.inertia, n.inertia, s.r);
-  }
+  });
 }
 
 }  // namespace linkstudy

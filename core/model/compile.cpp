@@ -287,7 +287,7 @@ class Compiler {
     c.row_end = static_cast<int>(rows.size());
     c.last_1 = last_velocity(c.first);
     c.last_2 = last_velocity(c.second);
-    c.support = support_of(c);
+    add_support(c);
     for (int r = c.row_begin; r < c.row_end; ++r) {
       const RowKind kind = rows[static_cast<std::size_t>(r)].kind;
       c.has_line = c.has_line || kind == RowKind::line_of_centres;
@@ -363,8 +363,8 @@ class Compiler {
     }
   }
 
-  std::vector<int> support_of(const ClosureStructure& c) const {
-    const Mechanism& m = model_.mechanism;
+  void add_support(ClosureStructure& c) {
+    Mechanism& m = mechanism();
     std::vector<int> support;
     for (int last : {c.last_1, c.last_2}) {
       for (int k = last; k >= 0; k = m.v_parent[static_cast<std::size_t>(k)]) {
@@ -373,7 +373,9 @@ class Compiler {
     }
     std::sort(support.begin(), support.end(), std::greater<>());
     support.erase(std::unique(support.begin(), support.end()), support.end());
-    return support;
+    c.support_begin = static_cast<int>(m.support.size());
+    m.support.insert(m.support.end(), support.begin(), support.end());
+    c.support_end = static_cast<int>(m.support.size());
   }
 
   int velocity_of(const Load& load) const {

@@ -94,7 +94,7 @@ struct ClosureStructure {
   Stabilization stabilization = Stabilization::none;
   int row_begin = 0, row_end = 0;              // in Mechanism::cut_rows or sde_rows
   int last_1 = -1, last_2 = -1;                // last velocity on each path to ground
-  std::vector<int> support;                    // velocities on both paths to ground, descending
+  int support_begin = 0, support_end = 0;      // in Mechanism::support
   bool needs_frames = false;                   // some row uses {1,e} or {2,e}
   bool has_line = false;                       // some row is a line of centres
   bool point_rows = false;                     // rows start with the ground axes x y z
@@ -123,6 +123,7 @@ struct Mechanism {
   std::vector<ClosureStructure> closures;
   std::vector<Row> cut_rows;  // (nc) constraint rows, closure by closure
   std::vector<Row> sde_rows;  // (ns)
+  std::vector<int> support;   // by closure: velocities on both paths to ground, descending
   std::vector<LoadStructure> loads;
   int table_segments = 0;
   bool projects = false;  // some cut closure asks for coordinate projection

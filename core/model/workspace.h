@@ -2,8 +2,10 @@
 // allocates nothing.
 #pragma once
 
+#include <array>
 #include <vector>
 
+#include "core/base/walk.h"
 #include "core/model/mechanism.h"
 #include "core/spatial/spatial.h"
 
@@ -49,41 +51,71 @@ struct RowState {
   Vec3<Real> couple;  // direction of the torque, or zero
 };
 
-template <class Real>
+// Numbers of things in a mechanism as far as its type tells them; -1: known when a program runs.
+template <class M>
+struct Counts {
+  static constexpr int bodies = -1, nv = -1, nv_nv = -1, closures = -1, loads = -1, nc = -1,
+                       nc_nv = -1, nc_nc = -1, ns = -1, size = -1;
+};
+
+template <FixedStructure M>
+struct Counts<M> {
+  static constexpr int bodies = M::bodies.size(), nv = M::nv, nv_nv = nv * nv,
+                       closures = M::closures.size(), loads = M::loads.size(),
+                       nc = M::cut_rows.size(), nc_nv = nc * nv, nc_nc = nc * nc,
+                       ns = M::sde_rows.size(), size = M::nq + nv + 2;  // of a state's record
+};
+
+template <class Real, class M = Mechanism>
 struct Workspace {
-  std::vector<BodyState<Real>> bodies;  // (nb)
-  std::vector<Vec3<Real>> axes;         // (nv) axis of each velocity, ground axes
-  std::vector<ClosureState<Real>> closures;
-  std::vector<Real> mass;                // (nv, nv) lower: mass matrix, then its factor L
-  std::vector<Real> inverse_pivot;       // (nv) 1 / D
-  std::vector<Real> tau;                 // (nv) generalised forces less bias
-  std::vector<Real> y;                   // (nv) L^-T tau
-  std::vector<Real> qdd;                 // (nv)
-  std::vector<Wrench<Real>> link_loads;  // (loads) about the body's origin
-  std::vector<RowState<Real>> cut_rows;  // (nc)
-  std::vector<RowState<Real>> sde_rows;  // (ns)
-  std::vector<Real> cut_y;               // (nc, nv) L^-T J^T, by row
-  std::vector<Real> schur;               // (nc, nc) J M^-1 J^T, then its factor
-  std::vector<Real> gram;                // (nc, nc) factor's Gram matrix, for redundant rows
-  std::vector<Real> schur_rhs;           // (nc)
-  std::vector<Real> row_inverse;         // (nc) 1 / pivot of the factor; 0: redundant row
-  std::vector<Real> scratch;             // (2 nc)
-  Real supplied_power = Real(0.0);       // W
-  Real dissipated_power = Real(0.0);     // W
-  bool redundant = false;                // some lane dropped a row in the last evaluation
+  using N = Counts<M>;
+  Array<BodyState<Real>, N::bodies> bodies;  // (nb)
+  Array<Vec3<Real>, N::nv> axes;             // (nv) axis of each velocity, ground axes
+  Array<ClosureState<Real>, N::closures> closures;
+  Array<Real, N::nv_nv> mass;                // (nv, nv) lower: mass matrix, then its factor L
+  Array<Real, N::nv> inverse_pivot;          // (nv) 1 / D
+  Array<Real, N::nv> tau;                    // (nv) generalised forces less bias
+  Array<Real, N::nv> y;                      // (nv) L^-T tau
+  Array<Real, N::nv> qdd;                    // (nv)
+  Array<Wrench<Real>, N::loads> link_loads;  // (loads) about the body's origin
+  Array<RowState<Real>, N::nc> cut_rows;     // (nc)
+  Array<RowState<Real>, N::ns> sde_rows;     // (ns)
+  Array<Real, N::nc_nv> cut_y;               // (nc, nv) L^-T J^T, by row
+  Array<Real, N::nc_nc> schur;               // (nc, nc) J M^-1 J^T, then its factor
+  Array<Real, N::nc_nc> gram;                // (nc, nc) factor's Gram matrix, for redundant rows
+  Array<Real, N::nc> schur_rhs;              // (nc)
+  Array<Real, N::nc> row_inverse;            // (nc) 1 / pivot of the factor; 0: redundant row
+  Array<Real, 2 * N::nc> scratch;            // (2 nc)
+  Real supplied_power = Real(0.0);           // W
+  Real dissipated_power = Real(0.0);         // W
+  bool redundant = false;                    // some lane dropped a row in the last evaluation
 };
 
 // Ground axes are constant: their unit forces are set here and never written again.
 template <class Real>
+inline void set_ground_axis(const Row& row, RowState<Real>& state) {
+  state.force = state.couple = zero3<Real>();
+  if (row.kind != RowKind::translation_ground) return;
+  const Mat3<Real> e = identity3<Real>();
+  state.force = row.axis == 0 ? e.x : row.axis == 1 ? e.y : e.z;
+}
+
+template <class Real>
 std::vector<RowState<Real>> make_rows(const std::vector<Row>& rows) {
   std::vector<RowState<Real>> states(rows.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    states[i].force = states[i].couple = zero3<Real>();
-    if (rows[i].kind != RowKind::translation_ground) continue;
-    const Mat3<Real> e = identity3<Real>();
-    states[i].force = rows[i].axis == 0 ? e.x : rows[i].axis == 1 ? e.y : e.z;
-  }
+  for (std::size_t i = 0; i < rows.size(); ++i) set_ground_axis(rows[i], states[i]);
   return states;
+}
+
+// Everything zero, and the ground axes set.
+template <class Real, FixedStructure M>
+inline Workspace<Real, M> make_workspace(const M& m) {
+  Workspace<Real, M> w{};
+  for_range(Index<0>(), Index<Counts<M>::nc>(),
+            [&](auto r) { set_ground_axis(at(m.cut_rows, r), at(w.cut_rows, r)); });
+  for_range(Index<0>(), Index<Counts<M>::ns>(),
+            [&](auto r) { set_ground_axis(at(m.sde_rows, r), at(w.sde_rows, r)); });
+  return w;
 }
 
 template <class Real>

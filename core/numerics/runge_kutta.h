@@ -6,9 +6,9 @@
 
 #include <array>
 #include <cstddef>
-#include <vector>
 
 #include "core/base/real.h"
+#include "core/base/walk.h"
 
 namespace linkstudy {
 
@@ -22,11 +22,15 @@ struct ClassicalRungeKutta {
   static constexpr std::array<double, 4> c{0.0, 0.5, 0.5, 1.0};
 };
 
-template <class Tableau, class Real>
+// Size: number of unknowns if the type tells it, or -1.
+template <class Tableau, class Real, int Size = -1>
 class RungeKutta {
  public:
-  explicit RungeKutta(std::size_t n) : n_(n), stage_(n) {
-    for (auto& k : slopes_) k.assign(n, Real(0.0));
+  explicit RungeKutta(std::size_t n) {
+    if constexpr (Size < 0) {
+      stage_.resize(n);
+      for (auto& k : slopes_) k.assign(n, Real(0.0));
+    }
   }
 
   Real* first_slope() { return slopes_[0].data(); }
@@ -34,31 +38,35 @@ class RungeKutta {
   // f(t, y, dy) writes dy; first_slope() must hold f(t, y).
   template <class F>
   void advance(double t, double h, Real* y, F&& f) {
-    for (int i = 1; i < Tableau::stages; ++i) {
-      const auto row = static_cast<std::size_t>(i);
-      combine(Tableau::a[row], i, h, y, stage_.data());
+    for_range(Index<1>(), Index<Tableau::stages>(), [&](auto i) {
+      constexpr auto row = static_cast<std::size_t>(i());
+      combine<i()>(Tableau::a[row], h, y, stage_.data());
       f(t + Tableau::c[row] * h, stage_.data(), slopes_[row].data());
-    }
-    combine(Tableau::b, Tableau::stages, h, y, y);
+    });
+    combine<Tableau::stages>(Tableau::b, h, y, y);
   }
 
  private:
-  // out = y + h sum of the first `count` slopes, zero weights skipped
-  void combine(const std::array<double, Tableau::stages>& weights, int count, double h,
-               const Real* y, Real* out) const {
-    for (std::size_t j = 0; j < n_; ++j) {
+  // out = y + h sum of the first slopes, zero weights skipped
+  template <int Count>
+  void combine(const std::array<double, Tableau::stages>& weights, double h, const Real* y,
+               Real* out) const {
+    const auto add_slopes = [&](auto j) {
       Real x = y[j];
-      for (int i = 0; i < count; ++i) {
-        const auto s = static_cast<std::size_t>(i);
-        if (weights[s] != 0.0) x = madd(Real(h * weights[s]), slopes_[s][j], x);
-      }
+      for_range(Index<0>(), Index<Count>(), [&](auto i) {
+        if (at(weights, i) != 0.0) x = madd(Real(h * at(weights, i)), at(slopes_[i()], j), x);
+      });
       out[j] = x;
+    };
+    if constexpr (Size < 0) {
+      for_range(0, static_cast<int>(stage_.size()), add_slopes);
+    } else {
+      for_range(Index<0>(), Index<Size>(), add_slopes);
     }
   }
 
-  std::size_t n_;
-  std::vector<Real> stage_;
-  std::array<std::vector<Real>, Tableau::stages> slopes_;
+  Array<Real, Size> stage_;
+  std::array<Array<Real, Size>, Tableau::stages> slopes_{};
 };
 
 }  // namespace linkstudy

@@ -12,10 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "core/closures/closure_wrench.h"
-#include "core/dynamics/energy.h"
-#include "core/dynamics/reactions.h"
-#include "core/model/state.h"
+#include "core/model/mechanism.h"
 
 namespace linkstudy {
 
@@ -55,102 +52,5 @@ std::vector<Channel> find_channels(const std::vector<Channel>& all, const std::s
 
 // Names a signal may have: every channel or its group.
 std::vector<std::string> signal_names(const std::vector<Channel>& all);
-
-// Values of one instant from which channels are read. Reactions and energies are computed when a
-// channel first asks for them.
-template <class Real>
-class Instant {
- public:
-  Instant(const Mechanism& m, const Parameters<Real>& p, const Workspace<Real>& w)
-      : m_(m), p_(p), w_(w), accelerations_(m.bodies.size()), reactions_(m.bodies.size()) {}
-
-  // y: q (nq), v (nv), supplied, dissipated; w must hold the evaluation at (t, y).
-  void move_to(double t, const Real* y) {
-    t_ = t;
-    y_ = y;
-    has_reactions_ = has_energy_ = false;
-  }
-  void set_initial_energy(Real e) { initial_energy_ = e; }
-
-  Real sample(const Channel& c) {
-    const auto i = static_cast<std::size_t>(c.index);
-    switch (c.quantity) {
-      case Quantity::time:
-        return Real(t_);
-      case Quantity::q:
-        return y_[c.index];
-      case Quantity::v:
-        return y_[m_.nq + c.index];
-      case Quantity::a:
-        return w_.qdd[i];
-      case Quantity::joint_force:
-      case Quantity::joint_torque:
-      case Quantity::joint_force_local:
-      case Quantity::joint_torque_local:
-        return reaction(c);
-      case Quantity::closure_force:
-        return component(compute_closure_wrench(w_, c.index).force, c.component);
-      case Quantity::closure_torque:
-        return component(compute_closure_wrench(w_, c.index).torque, c.component);
-      case Quantity::closure_gap:
-        return component(compute_closure_wrench(w_, c.index).gap, c.component);
-      default:
-        return energy(c.quantity);
-    }
-  }
-
-  Energy<Real> energy() {
-    if (!has_energy_) energy_ = compute_energy(m_, p_, w_);
-    has_energy_ = true;
-    return energy_;
-  }
-  Real supplied() const { return y_[m_.nq + m_.nv]; }
-  Real dissipated() const { return y_[m_.nq + m_.nv + 1]; }
-  Real residual() {
-    const Energy<Real> e = energy();
-    return e.kinetic + e.potential - initial_energy_ - supplied() + dissipated();
-  }
-
- private:
-  Real energy(Quantity quantity) {
-    switch (quantity) {
-      case Quantity::kinetic:
-        return energy().kinetic;
-      case Quantity::potential:
-        return energy().potential;
-      case Quantity::supplied:
-        return supplied();
-      case Quantity::dissipated:
-        return dissipated();
-      default:
-        return residual();
-    }
-  }
-
-  Real reaction(const Channel& c) {
-    if (!has_reactions_) update_reactions(m_, p_, w_, accelerations_, reactions_);
-    has_reactions_ = true;
-    const BodyState<Real>& b = w_.bodies[static_cast<std::size_t>(c.index)];
-    const Wrench<Real>& f = reactions_[static_cast<std::size_t>(c.index)];
-    const bool force =
-        c.quantity == Quantity::joint_force || c.quantity == Quantity::joint_force_local;
-    const bool local =
-        c.quantity == Quantity::joint_force_local || c.quantity == Quantity::joint_torque_local;
-    const Vec3<Real>& ground = force ? f.force : f.moment;
-    return component(local ? transpose_times(b.r, ground) : ground, c.component);
-  }
-
-  const Mechanism& m_;
-  const Parameters<Real>& p_;
-  const Workspace<Real>& w_;
-  double t_ = 0.0;
-  const Real* y_ = nullptr;
-  std::vector<BodyState<Real>> accelerations_;  // (nb)
-  std::vector<Wrench<Real>> reactions_;         // (nb)
-  Energy<Real> energy_{};
-  Real initial_energy_ = Real(0.0);
-  bool has_reactions_ = false;
-  bool has_energy_ = false;
-};
 
 }  // namespace linkstudy

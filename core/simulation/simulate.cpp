@@ -4,173 +4,139 @@
 #include <chrono>
 #include <cmath>
 
-#include "core/closures/projection.h"
-#include "core/dynamics/equations_of_motion.h"
-#include "core/numerics/runge_kutta.h"
+#include "core/simulation/kernels.h"
 
 namespace linkstudy {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Beyond these a run is no longer a motion: it has diverged, or its energy has left the ledger.
-constexpr double kFastest = 1e9;       // rad/s or m/s
-constexpr double kEnergyFactor = 1e3;  // times the energy that entered, plus
-constexpr double kEnergyFloor = 1.0;   // J
-constexpr long kStepsBetweenClockLooks = 256;
+// What ends a run from outside.
+struct Watch {
+  const RunLimits& limits;
+  Clock::time_point begin = Clock::now();
 
-template <class Real>
-class Run {
- public:
-  Run(const Mechanism& m, const Parameters<Real>& p, const State<Real>& start,
-      const SimulationOptions& options, Observers<Real>& observers, const RunLimits& limits)
-      : m_(m),
-        p_(p),
-        options_(options),
-        observers_(observers),
-        limits_(limits),
-        grid_(make_step_grid(options)),
-        size_(static_cast<std::size_t>(m.nq + m.nv + 2)),
-        t0_(start.t),
-        y_(size_),
-        correction_(static_cast<std::size_t>(m.nv)),
-        w_(make_workspace<Real>(m)),
-        rk_(size_),
-        now_(m_, p_, w_) {
-    std::copy(start.q.begin(), start.q.end(), y_.begin());
-    std::copy(start.v.begin(), start.v.end(), y_.begin() + m.nq);
-    energy_stride_ = std::max(1L, std::lround(options.output_interval / grid_.h));
-    reserve(observers_);
-  }
-
-  SimulationOutcome run() {
-    const auto begin = Clock::now();
-    long step = 0;
-    for (;; ++step) {
-      const double t = t0_ + static_cast<double>(step) * grid_.h;
-      differentiate(t, y_.data(), rk_.first_slope());
-      now_.move_to(t, y_.data());
-      if (step == 0) start_ledger();
-      if (!accept(step, t)) break;
-      observe(observers_, step, now_);
-      if (step == grid_.count) break;
-      if (step % kStepsBetweenClockLooks == 0 && interrupted(begin, t)) break;
-      rk_.advance(t, grid_.h, y_.data(),
-                  [this](double s, const Real* y, Real* slope) { differentiate(s, y, slope); });
-      finish_step();
+  static Cause poll(void* context, double t) {
+    const Watch& w = *static_cast<const Watch*>(context);
+    if (w.limits.reached) w.limits.reached->store(t, std::memory_order_relaxed);
+    if (w.limits.cancelled && w.limits.cancelled->load(std::memory_order_relaxed)) {
+      return Cause::cancelled;
     }
-    outcome_.steps = step;
-    outcome_.end_time = t0_ + static_cast<double>(step) * grid_.h;
-    store_final_state();
-    return std::move(outcome_);
+    const std::chrono::duration<double> spent = Clock::now() - w.begin;
+    const bool late = w.limits.timeout_s > 0.0 && spent.count() >= w.limits.timeout_s;
+    return late ? Cause::timeout : Cause::ok;
   }
+};
+
+std::string describe_end(Cause cause, double t) {
+  const std::string at = " at t = " + std::to_string(t) + " s";
+  switch (cause) {
+    case Cause::diverged:
+      return "diverged" + at;
+    case Cause::constraint_drift:
+      return "cut joints opened beyond simulation.drift_limit" + at;
+    case Cause::energy_blowup:
+      return "energy left the ledger" + at;
+    case Cause::timeout:
+      return "wall time of the run used up";
+    case Cause::cancelled:
+      return "cancelled";
+    default:
+      return "";
+  }
+}
+
+// Space for everything a run will write.
+void size_observers(Observers<double>& all) {
+  for (auto& s : all.series) {
+    s.values.assign(static_cast<std::size_t>(s.sampling.count()) * s.channels.size(), 0.0);
+  }
+  for (auto& s : all.comparisons) {
+    s.max_error.assign(s.channels.size(), 0.0);
+    s.square_error.assign(s.channels.size(), 0.0);
+  }
+}
+
+// The cases of one pack, and what its kernel reads and writes.
+class Packed {
+ public:
+  Packed(const Mechanism& m, std::span<BatchCase> cases)
+      : m_(m), cases_(cases), ends_(cases.size()), samples_(cases.size()) {
+    for (std::size_t i = 0; i < cases.size(); ++i) add(i);
+  }
+
+  void run(const SimulationOptions& options, const RunLimits& limits, const Kernel& kernel) {
+    const StepGrid grid = make_step_grid(options);
+    Watch watch{limits};
+    const double t0 = cases_[0].start->t;
+    const long stride = std::max(1L, std::lround(options.output_interval / grid.h));
+    const KernelRun setting{t0,          grid.h, grid.count, stride, options.drift_limit,
+                            Watch::poll, &watch};
+    kernel.run(m_, setting, lanes_.data(), static_cast<int>(lanes_.size()));
+    for (std::size_t i = 0; i < cases_.size(); ++i) store(i, t0, grid.h);
+  }
+
+  bool abandoned(std::size_t i) const { return ends_[i].abandoned; }
 
  private:
-  void differentiate(double t, const Real* y, Real* slope) {
-    const Real* q = y;
-    const Real* v = y + m_.nq;
-    evaluate(m_, p_, t, q, v, w_);
-    for (const Stage& s : m_.stages) position_rates(s, q + s.q, v + s.v, slope + s.q);
-    Real* rest = slope + m_.nq;
-    for (std::size_t k = 0; k < w_.qdd.size(); ++k) rest[k] = w_.qdd[k];
-    rest[m_.nv] = w_.supplied_power;
-    rest[m_.nv + 1] = w_.dissipated_power;
+  void add(std::size_t i) {
+    const BatchCase& c = cases_[i];
+    size_observers(*c.observers);
+    samples_[i].assign(c.observers->series.size(), 0);
+    auto& y = starts_.emplace_back(c.start->q);
+    y.insert(y.end(), c.start->v.begin(), c.start->v.end());
+    y.push_back(c.start->supplied);
+    y.push_back(c.start->dissipated);
+    auto& final_y = finals_.emplace_back(y.size());
+    lanes_.push_back(
+        {c.parameters, y.data(), final_y.data(), c.observers, samples_[i].data(), &ends_[i]});
   }
 
-  void finish_step() {
-    if (!m_.ball_q.empty()) normalize_quaternions(m_, y_.data());
-    if (!m_.projects) return;
-    update_factored_mass_matrix(m_, p_, 0.0, y_.data(), y_.data() + m_.nq, w_);
-    project(m_, p_, y_.data(), y_.data() + m_.nq, correction_.data(), w_);
-  }
-
-  void start_ledger() {
-    const Energy<Real> e = now_.energy();
-    initial_energy_ = e.kinetic + e.potential;
-    now_.set_initial_energy(initial_energy_);
-    first_kinetic_ = e.kinetic;
-  }
-
-  bool accept(long step, double t) {
-    Real size(0.0);
-    for (int i = 0; i < m_.nv; ++i) size = max(size, abs(y_[static_cast<std::size_t>(m_.nq + i)]));
-    Real sum(0.0);
-    for (std::size_t i = 0; i < w_.qdd.size(); ++i) sum = sum + abs(w_.qdd[i]);
-    if (!(size < kFastest) || !is_finite(sum)) {
-      return fail(Cause::diverged, "diverged", t);
+  void store(std::size_t i, double t0, double h) {
+    const LaneEnd& end = ends_[i];
+    SimulationOutcome& o = cases_[i].outcome;
+    o = {};
+    o.cause = end.cause;
+    o.steps = end.steps;
+    o.end_time = t0 + static_cast<double>(end.steps) * h;
+    o.message = describe_end(end.cause, o.end_time);
+    o.drift_max = end.drift_max;
+    o.energy_residual_max = end.energy_residual_max;
+    o.energy_scale = end.energy_scale;
+    o.redundant = end.redundant;
+    const auto& y = finals_[i];
+    o.final_state.t = o.end_time;
+    o.final_state.q.assign(y.begin(), y.begin() + m_.nq);
+    o.final_state.v.assign(y.begin() + m_.nq, y.begin() + m_.nq + m_.nv);
+    o.final_state.supplied = y[y.size() - 2];
+    o.final_state.dissipated = y[y.size() - 1];
+    for (std::size_t k = 0; k < samples_[i].size(); ++k) {
+      auto& s = cases_[i].observers->series[k];
+      s.values.resize(samples_[i][k] * s.channels.size());
     }
-    return check_drift(t) && (step % energy_stride_ != 0 || check_energy(t));
-  }
-
-  bool check_drift(double t) {
-    Real square(0.0);
-    for (const RowState<Real>& r : w_.cut_rows) square = madd(r.d, r.d, square);
-    const Real drift = sqrt(square);
-    outcome_.drift_max = std::max(outcome_.drift_max, drift);
-    outcome_.redundant = outcome_.redundant || w_.redundant;
-    if (drift <= options_.drift_limit) return true;
-    return fail(Cause::constraint_drift, "cut joints opened beyond simulation.drift_limit", t);
-  }
-
-  bool check_energy(double t) {
-    const Energy<Real> e = now_.energy();
-    const Real residual = abs(now_.residual());
-    const Real work = abs(now_.supplied()) + abs(now_.dissipated());
-    outcome_.energy_residual_max = std::max(outcome_.energy_residual_max, residual);
-    outcome_.energy_scale = std::max({outcome_.energy_scale, e.kinetic, work});
-    const Real swing = abs(e.potential - (initial_energy_ - first_kinetic_));
-    const Real entered = abs(now_.supplied()) + first_kinetic_ + swing;
-    if (residual <= madd(Real(kEnergyFactor), entered, Real(kEnergyFloor))) return true;
-    return fail(Cause::energy_blowup, "energy left the ledger", t);
-  }
-
-  bool interrupted(Clock::time_point begin, double t) {
-    if (limits_.reached) limits_.reached->store(t, std::memory_order_relaxed);
-    if (limits_.cancelled && limits_.cancelled->load(std::memory_order_relaxed)) {
-      outcome_.cause = Cause::cancelled;
-      outcome_.message = "cancelled";
-      return true;
-    }
-    const std::chrono::duration<double> spent = Clock::now() - begin;
-    if (limits_.timeout_s <= 0.0 || spent.count() < limits_.timeout_s) return false;
-    outcome_.cause = Cause::timeout;
-    outcome_.message = "wall time of the run used up";
-    return true;
-  }
-
-  bool fail(Cause cause, const char* what, double t) {
-    outcome_.cause = cause;
-    outcome_.message = std::string(what) + " at t = " + std::to_string(t) + " s";
-    return false;
-  }
-
-  void store_final_state() {
-    State<double>& s = outcome_.final_state;
-    s.t = outcome_.end_time;
-    s.q.assign(y_.begin(), y_.begin() + m_.nq);
-    s.v.assign(y_.begin() + m_.nq, y_.begin() + m_.nq + m_.nv);
-    s.supplied = y_[size_ - 2];
-    s.dissipated = y_[size_ - 1];
   }
 
   const Mechanism& m_;
-  const Parameters<Real>& p_;
-  const SimulationOptions& options_;
-  Observers<Real>& observers_;
-  const RunLimits& limits_;
-  StepGrid grid_;
-  std::size_t size_;
-  double t0_;
-  std::vector<Real> y_;  // q (nq), v (nv), supplied, dissipated
-  std::vector<Real> correction_;
-  Workspace<Real> w_;
-  RungeKutta<ClassicalRungeKutta, Real> rk_;
-  Instant<Real> now_;
-  SimulationOutcome outcome_;
-  Real initial_energy_ = Real(0.0);
-  Real first_kinetic_ = Real(0.0);
-  long energy_stride_ = 1;
+  std::span<BatchCase> cases_;
+  std::vector<LaneEnd> ends_;
+  std::vector<std::vector<std::size_t>> samples_;
+  std::vector<std::vector<double>> starts_;
+  std::vector<std::vector<double>> finals_;
+  std::vector<LaneCase> lanes_;
 };
+
+// A lone case takes one lane: the same bits, and faster than a pack of copies.
+void run_pack(const Mechanism& m, const SimulationOptions& options, std::span<BatchCase> cases,
+              const RunLimits& limits) {
+  const SimdLevel level = simd_level();
+  const int lanes = cases.size() == 1 ? 1 : level.lanes;
+  Packed packed(m, cases);
+  packed.run(options, limits, find_kernel(m, level.isa, lanes));
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    if (!packed.abandoned(i)) continue;
+    Packed(m, cases.subspan(i, 1)).run(options, limits, find_kernel(m, level.isa, 1, true));
+  }
+}
 
 }  // namespace
 
@@ -183,7 +149,18 @@ StepGrid make_step_grid(const SimulationOptions& options) {
 SimulationOutcome simulate(const Mechanism& mechanism, const Parameters<double>& parameters,
                            const State<double>& start, const SimulationOptions& options,
                            Observers<double>& observers, const RunLimits& limits) {
-  return Run<double>(mechanism, parameters, start, options, observers, limits).run();
+  std::vector<BatchCase> one{{&parameters, &start, &observers, {}}};
+  simulate_batch(mechanism, options, one, limits);
+  return std::move(one.front().outcome);
+}
+
+void simulate_batch(const Mechanism& mechanism, const SimulationOptions& options,
+                    std::vector<BatchCase>& cases, const RunLimits& limits) {
+  const auto lanes = static_cast<std::size_t>(simd_level().lanes);
+  const std::span<BatchCase> all(cases);
+  for (std::size_t i = 0; i < all.size(); i += lanes) {
+    run_pack(mechanism, options, all.subspan(i, std::min(lanes, all.size() - i)), limits);
+  }
 }
 
 }  // namespace linkstudy

@@ -1,11 +1,13 @@
-// One run: constant steps of the classical Runge-Kutta method from a prepared start, observers at
+// Runs: constant steps of the classical Runge-Kutta method from a prepared start, observers at
 // every accepted state, and a typed cause at the end. A run that fails numerically is a result.
 #pragma once
 
 #include <atomic>
 #include <string>
+#include <vector>
 
 #include "core/model/parameters.h"
+#include "core/model/state.h"
 #include "core/simulation/cause.h"
 #include "core/simulation/observers.h"
 #include "core/simulation/options.h"
@@ -37,8 +39,22 @@ struct SimulationOutcome {
   State<double> final_state;
 };
 
+// One run on one lane of the instruction set in use.
 SimulationOutcome simulate(const Mechanism& mechanism, const Parameters<double>& parameters,
                            const State<double>& start, const SimulationOptions& options,
                            Observers<double>& observers, const RunLimits& limits = {});
+
+struct BatchCase {
+  const Parameters<double>* parameters = nullptr;
+  const State<double>* start = nullptr;    // t the same in all cases
+  Observers<double>* observers = nullptr;  // of the same form in all cases
+  SimulationOutcome outcome;               // written
+};
+
+// Runs of one structure and one step grid, several at a time in the lanes of a pack, in the order
+// given. The outcome of a case, to the last bit, is that of `simulate`. A time limit is one for
+// each pack.
+void simulate_batch(const Mechanism& mechanism, const SimulationOptions& options,
+                    std::vector<BatchCase>& cases, const RunLimits& limits = {});
 
 }  // namespace linkstudy

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/simulation/instant.h"
 #include "core/simulation/prepare.h"
 #include "core/simulation/simulate.h"
 #include "tests/support/trace_model.h"

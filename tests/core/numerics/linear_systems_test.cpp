@@ -24,6 +24,15 @@ struct SparseCase {
   MatrixXd h;
 };
 
+struct Tree {
+  int nv;
+  std::vector<int> v_parent;
+};
+
+Tree tree(const SparseCase& c) {
+  return {c.n, c.parent};
+}
+
 // Sum over nodes of w w^T with w on the path to the root: the sparsity of a mass matrix.
 SparseCase random_tree_matrix(std::uint64_t seed) {
   Random random(seed);
@@ -88,7 +97,7 @@ TEST(BranchSparse, The_factor_multiplies_back_to_the_matrix_without_fill_in) {
     RowMajor factor = c.h;
     factor.triangularView<Eigen::StrictlyUpper>().setConstant(1e99);  // never read
     VectorXd inverse_pivot(c.n);
-    factorize_branch_sparse(c.n, c.parent.data(), factor.data(), inverse_pivot.data());
+    factorize_branch_sparse(tree(c), factor.data(), inverse_pivot.data());
     MatrixXd l = MatrixXd::Identity(c.n, c.n);
     for (int k = 0; k < c.n; ++k) {
       for (int i = c.parent[static_cast<std::size_t>(k)]; i >= 0;
@@ -109,10 +118,10 @@ TEST(BranchSparse, Solutions_are_those_of_a_dense_Cholesky_factorisation) {
     VectorXd inverse_pivot(c.n);
     const VectorXd b = Random(seed + 1000).vector(c.n, 1.0);
     VectorXd x = b;
-    factorize_branch_sparse(c.n, c.parent.data(), factor.data(), inverse_pivot.data());
-    solve_branch_transposed(c.n, c.parent.data(), factor.data(), x.data());
+    factorize_branch_sparse(tree(c), factor.data(), inverse_pivot.data());
+    solve_branch_transposed(tree(c), factor.data(), x.data());
     x = x.cwiseProduct(inverse_pivot);
-    solve_branch(c.n, c.parent.data(), factor.data(), x.data());
+    solve_branch(tree(c), factor.data(), x.data());
     ASSERT_TRUE(near_relative(x, c.h.llt().solve(b), 1e-14 * condition(c.h))) << "seed " << seed;
   }
 }

@@ -1,0 +1,63 @@
+#include "core/base/isa.h"
+
+#include <cstdlib>
+#include <string>
+
+namespace linkstudy {
+namespace {
+
+int native_lanes(InstructionSet isa) {
+  return isa == InstructionSet::avx512 ? 8 : isa == InstructionSet::avx2 ? 4 : 2;
+}
+
+InstructionSet widest() {
+  if (machine_has(InstructionSet::avx512)) return InstructionSet::avx512;
+  return machine_has(InstructionSet::avx2) ? InstructionSet::avx2 : InstructionSet::baseline;
+}
+
+InstructionSet wanted(const std::string& name) {
+  for (const auto isa : {InstructionSet::baseline, InstructionSet::avx2, InstructionSet::avx512}) {
+    if (name != name_of(isa)) continue;
+    if (!machine_has(isa)) throw SimdError("LINKSTUDY_SIMD=" + name + ": not on this machine");
+    return isa;
+  }
+  throw SimdError("LINKSTUDY_SIMD=" + name + ": must be baseline, avx2 or avx512");
+}
+
+}  // namespace
+
+bool machine_has(InstructionSet isa) {
+#if defined(__x86_64__)
+  if (isa == InstructionSet::avx512) {
+    return __builtin_cpu_supports("x86-64-v4") > 0;
+  }
+  if (isa == InstructionSet::avx2) {
+    return __builtin_cpu_supports("x86-64-v3") > 0;
+  }
+  return true;
+#else
+  return isa == InstructionSet::baseline;
+#endif
+}
+
+SimdLevel choose_simd_level(const char* simd, const char* lanes) {
+  SimdLevel level;
+  level.isa = simd && *simd ? wanted(simd) : widest();
+  level.lanes = native_lanes(level.isa);
+  if (lanes && *lanes && std::string(lanes) != std::to_string(level.lanes)) {
+    if (std::string(lanes) != "1") {
+      throw SimdError("LINKSTUDY_LANES=" + std::string(lanes) + ": must be 1 or " +
+                      std::to_string(level.lanes));
+    }
+    level.lanes = 1;
+  }
+  return level;
+}
+
+SimdLevel simd_level() {
+  static const SimdLevel level =
+      choose_simd_level(std::getenv("LINKSTUDY_SIMD"), std::getenv("LINKSTUDY_LANES"));
+  return level;
+}
+
+}  // namespace linkstudy

@@ -1,0 +1,22 @@
+// The step loop for every mechanism, on packs of one instruction set.
+#pragma once
+
+#include <array>
+
+#include "core/base/pack.h"
+#include "core/simulation/run.h"
+
+namespace linkstudy {
+
+template <class Isa, int Lanes>
+void run_general(const Mechanism& m, const KernelRun& setting, const LaneCase* cases, int count) {
+  Run<Pack<Lanes, Isa>, Mechanism>(m, setting, cases, count).run();
+}
+
+template <class Isa>
+constexpr std::array<Kernel, 2> general_kernels(InstructionSet isa) {
+  return {{{isa, 1, nullptr, run_general<Isa, 1>},
+           {isa, Isa::lanes, nullptr, run_general<Isa, Isa::lanes>}}};
+}
+
+}  // namespace linkstudy

@@ -1,0 +1,106 @@
+// Values of channels at one instant of a run, read from what the evaluation left in the Workspace.
+#pragma once
+
+#include "core/closures/closure_wrench.h"
+#include "core/dynamics/energy.h"
+#include "core/dynamics/reactions.h"
+#include "core/simulation/channels.h"
+
+namespace linkstudy {
+
+// Values of one instant from which channels are read. Reactions and energies are computed when a
+// channel first asks for them.
+template <class Real, class M = Mechanism>
+class Instant {
+ public:
+  Instant(const M& m, const Parameters<Real>& p, const Workspace<Real, M>& w)
+      : m_(m), p_(p), w_(w), reactions_(make_reactions<Real>(m)) {}
+
+  // y: q (nq), v (nv), supplied, dissipated; w must hold the evaluation at (t, y).
+  void move_to(double t, const Real* y) {
+    t_ = t;
+    y_ = y;
+    has_reactions_ = has_energy_ = false;
+  }
+  void set_initial_energy(Real e) { initial_energy_ = e; }
+
+  Real sample(const Channel& c) {
+    switch (c.quantity) {
+      case Quantity::time:
+        return Real(t_);
+      case Quantity::q:
+        return y_[c.index];
+      case Quantity::v:
+        return y_[m_.nq + c.index];
+      case Quantity::a:
+        return at(w_.qdd, c.index);
+      case Quantity::joint_force:
+      case Quantity::joint_torque:
+      case Quantity::joint_force_local:
+      case Quantity::joint_torque_local:
+        return reaction(c);
+      case Quantity::closure_force:
+        return component(compute_closure_wrench(at(w_.closures, c.index)).force, c.component);
+      case Quantity::closure_torque:
+        return component(compute_closure_wrench(at(w_.closures, c.index)).torque, c.component);
+      case Quantity::closure_gap:
+        return component(compute_closure_wrench(at(w_.closures, c.index)).gap, c.component);
+      default:
+        return energy(c.quantity);
+    }
+  }
+
+  Energy<Real> energy() {
+    if (!has_energy_) energy_ = compute_energy(m_, p_, w_);
+    has_energy_ = true;
+    return energy_;
+  }
+  Real supplied() const { return y_[m_.nq + m_.nv]; }
+  Real dissipated() const { return y_[m_.nq + m_.nv + 1]; }
+  Real residual() {
+    const Energy<Real> e = energy();
+    return e.kinetic + e.potential() - initial_energy_ - supplied() + dissipated();
+  }
+
+ private:
+  Real energy(Quantity quantity) {
+    switch (quantity) {
+      case Quantity::kinetic:
+        return energy().kinetic;
+      case Quantity::potential:
+        return energy().potential();
+      case Quantity::supplied:
+        return supplied();
+      case Quantity::dissipated:
+        return dissipated();
+      default:
+        return residual();
+    }
+  }
+
+  Real reaction(const Channel& c) {
+    if (!has_reactions_) update_reactions(m_, p_, w_, reactions_);
+    has_reactions_ = true;
+    const BodyState<Real>& b = at(w_.bodies, c.index);
+    const Wrench<Real>& f = at(reactions_.on_child, c.index);
+    const bool force =
+        c.quantity == Quantity::joint_force || c.quantity == Quantity::joint_force_local;
+    const bool local =
+        c.quantity == Quantity::joint_force_local || c.quantity == Quantity::joint_torque_local;
+    const Vec3<Real>& ground = force ? f.force : f.moment;
+    return component(local ? transpose_times(b.r, ground) : ground, c.component);
+  }
+
+  const M& m_;
+  const Parameters<Real>& p_;
+  const Workspace<Real, M>& w_;
+  double t_ = 0.0;
+  const Real* y_ = nullptr;
+  Reactions<Real, M> reactions_;
+  Energy<Real> energy_{};
+  Real initial_energy_ = Real(0.0);
+  bool has_reactions_ = false;
+  bool has_energy_ = false;
+};
+
+}  // namespace linkstudy

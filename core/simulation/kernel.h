@@ -1,0 +1,51 @@
+// The boundary between the program and the step loops compiled for one instruction set each: plain
+// pointers and numbers, so that code for a wide instruction set stays in its own objects.
+#pragma once
+
+#include "core/base/isa.h"
+#include "core/model/parameters.h"
+#include "core/simulation/cause.h"
+#include "core/simulation/observers.h"
+
+namespace linkstudy {
+
+// How the run of one lane ended.
+struct LaneEnd {
+  Cause cause = Cause::ok;
+  bool abandoned = false;  // rows became dependent where the kernel takes them as independent
+  bool redundant = false;  // cut rows were dependent at some instant
+  long steps = 0;          // accepted
+  double drift_max = 0.0;
+  double energy_residual_max = 0.0;
+  double energy_scale = 0.0;
+};
+
+struct LaneCase {
+  const Parameters<double>* parameters;
+  const double* y;               // start: q (nq), v (nv), supplied, dissipated
+  double* final_y;               // the same at the end
+  Observers<double>* observers;  // sized; of the same form in all lanes
+  std::size_t* samples;          // (series) rows written
+  LaneEnd* end;
+};
+
+struct KernelRun {
+  double t0;
+  double h;
+  long count;          // steps
+  long energy_stride;  // steps between looks at the energy ledger
+  double drift_limit;
+  // Called now and then: anything but ok ends all lanes.
+  Cause (*poll)(void* context, double t);
+  void* context;
+};
+
+// cases: up to as many as the kernel has lanes.
+struct Kernel {
+  InstructionSet isa;
+  int lanes;
+  bool (*serves)(const Mechanism&);  // null: every mechanism
+  void (*run)(const Mechanism&, const KernelRun&, const LaneCase* cases, int count);
+};
+
+}  // namespace linkstudy

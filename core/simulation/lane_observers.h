@@ -1,0 +1,138 @@
+// Observers of a pack: they sample all lanes at once, sum in step order, and hand each lane's
+// results to the observers of its case when the lane ends.
+#pragma once
+
+#include <limits>
+
+#include "core/simulation/instant.h"
+#include "core/simulation/kernel.h"
+
+namespace linkstudy {
+
+template <class Real>
+class LaneObservers {
+ public:
+  LaneObservers(const LaneCase* cases, int count) : cases_(cases), count_(count) {
+    const Observers<double>& form = *cases[0].observers;
+    comparisons_.resize(form.comparisons.size());
+    for (std::size_t i = 0; i < comparisons_.size(); ++i) {
+      const std::size_t n = form.comparisons[i].max_error.size();
+      comparisons_[i].max_error.assign(n, Real(0.0));
+      comparisons_[i].square_error.assign(n, Real(0.0));
+    }
+    reductions_.resize(form.reductions.size());
+    rows_.assign(form.series.size(), 0);
+  }
+
+  template <class M>
+  void observe(long step, Instant<Real, M>& now) {
+    const Observers<double>& form = *cases_[0].observers;
+    for (std::size_t i = 0; i < comparisons_.size(); ++i) {
+      compare(form.comparisons[i], comparisons_[i], step, now);
+    }
+    for (std::size_t i = 0; i < reductions_.size(); ++i) {
+      reduce(form.reductions[i], reductions_[i], step, now);
+    }
+    for (std::size_t i = 0; i < rows_.size(); ++i) record(form.series[i], i, step, now);
+  }
+
+  // Hands over what lane i has seen so far.
+  void store(int i) const {
+    Observers<double>& out = *cases_[i].observers;
+    for (std::size_t k = 0; k < comparisons_.size(); ++k) {
+      store(comparisons_[k], i, out.comparisons[k]);
+    }
+    for (std::size_t k = 0; k < reductions_.size(); ++k) {
+      store(reductions_[k], i, out.reductions[k]);
+    }
+    for (std::size_t k = 0; k < rows_.size(); ++k) cases_[i].samples[k] = rows_[k];
+  }
+
+ private:
+  struct LaneComparison {
+    std::size_t seen = 0;
+    std::vector<Real> max_error, square_error;  // (channels)
+    Real max_vector_error = Real(0.0);
+    Real square_vector_error = Real(0.0);
+  };
+  struct LaneReduction {
+    long seen = 0;
+    Real min = Real(std::numeric_limits<double>::infinity());
+    Real max = Real(-std::numeric_limits<double>::infinity());
+    Real sum = Real(0.0);
+    Real square = Real(0.0);
+    Real last = Real(0.0);
+  };
+
+  template <class M>
+  static void compare(const Comparison<double>& form, LaneComparison& s, long step,
+                      Instant<Real, M>& now) {
+    if (!form.sampling.hits(step)) return;
+    const std::size_t n = s.max_error.size();
+    const double* reference = form.reference + s.seen * n;
+    Real vector_square(0.0);
+    for (std::size_t i = 0; i < n; ++i) {
+      const Real error = now.sample(form.channels[i]) - Real(form.sign[i] * reference[i]);
+      s.max_error[i] = max(s.max_error[i], abs(error));
+      s.square_error[i] = madd(error, error, s.square_error[i]);
+      vector_square = madd(error, error, vector_square);
+    }
+    s.max_vector_error = max(s.max_vector_error, sqrt(vector_square));
+    s.square_vector_error = s.square_vector_error + vector_square;
+    ++s.seen;
+  }
+
+  template <class M>
+  static void reduce(const ChannelReduction<double>& form, LaneReduction& s, long step,
+                     Instant<Real, M>& now) {
+    if (!form.sampling.hits(step)) return;
+    const Real x = now.sample(form.channel);
+    s.min = min(s.min, x);
+    s.max = max(s.max, x);
+    s.sum = s.sum + x;
+    s.square = madd(x, x, s.square);
+    s.last = x;
+    ++s.seen;
+  }
+
+  template <class M>
+  void record(const Series<double>& form, std::size_t index, long step, Instant<Real, M>& now) {
+    if (!form.sampling.hits(step)) return;
+    const std::size_t n = form.channels.size();
+    const std::size_t begin = rows_[index] * n;
+    for (std::size_t k = 0; k < n; ++k) {
+      const Real x = now.sample(form.channels[k]);
+      for (int i = 0; i < count_; ++i) {
+        cases_[i].observers->series[index].values[begin + k] = lane(x, i);
+      }
+    }
+    ++rows_[index];
+  }
+
+  static void store(const LaneComparison& s, int i, Comparison<double>& out) {
+    out.seen = static_cast<long>(s.seen);
+    for (std::size_t k = 0; k < s.max_error.size(); ++k) {
+      out.max_error[k] = lane(s.max_error[k], i);
+      out.square_error[k] = lane(s.square_error[k], i);
+    }
+    out.max_vector_error = lane(s.max_vector_error, i);
+    out.square_vector_error = lane(s.square_vector_error, i);
+  }
+
+  static void store(const LaneReduction& s, int i, ChannelReduction<double>& out) {
+    out.seen = s.seen;
+    out.min = lane(s.min, i);
+    out.max = lane(s.max, i);
+    out.sum = lane(s.sum, i);
+    out.square = lane(s.square, i);
+    out.last = lane(s.last, i);
+  }
+
+  const LaneCase* cases_;
+  int count_;
+  std::vector<LaneComparison> comparisons_;
+  std::vector<LaneReduction> reductions_;
+  std::vector<std::size_t> rows_;  // (series)
+};
+
+}  // namespace linkstudy
