@@ -29,6 +29,10 @@ struct DriftTolerance {
 // this part of the lever count as that.
 inline constexpr double kLeastLever = 1e-3;
 
+// One bit for every lane.
+template <class Real>
+inline constexpr unsigned kAllLanes = (1u << RealTraits<Real>::lanes) - 1u;
+
 // f(k) of the velocities that move the two ends of a closure against each other: on the path of one
 // end to ground and not on that of the other.
 template <class M, class F>
@@ -148,8 +152,8 @@ inline void fill_redundant_system(const M& m, const Workspace<Real, M>& w, int i
   copy(w.inverse_pivot, nv, system.inverse_pivot());
 }
 
-// Factors for the lanes that have none (Workspace::definite), and the number of their independent
-// rows. Precondition: cut_jacobian.
+// Factors for the lanes of Workspace::redundant, and the number of their independent rows.
+// Precondition: cut_jacobian.
 template <class M, class Real>
 inline void factorize_redundant_rows(const M& m, const Parameters<Real>& p, Workspace<Real, M>& w) {
   update_row_scales(m, p, w);
@@ -157,7 +161,7 @@ inline void factorize_redundant_rows(const M& m, const Parameters<Real>& p, Work
   const Real by_gap = Real(DriftTolerance::per_gap) * largest_gap(m, w);
   const Real tolerance = min(max(by_gap, Real(DriftTolerance::least)), Real(DriftTolerance::most));
   for (int i = 0; i < RealTraits<Real>::lanes; ++i) {
-    if (lane_bits(w.definite) >> i & 1u) continue;
+    if ((w.redundant >> i & 1u) == 0) continue;
     RedundantSystem& system = at(w.redundant_systems, i);
     fill_redundant_system(m, w, i, system);
     set_lane(w.kept_rows, i, system.reduce(lane(tolerance, i)));
@@ -170,7 +174,7 @@ inline void factorize_redundant_rows(const M& m, const Parameters<Real>& p, Work
 template <class M, class Real>
 inline void take_redundant_rows(const M& m, Workspace<Real, M>& w) {
   for (int i = 0; i < RealTraits<Real>::lanes; ++i) {
-    if (lane_bits(w.definite) >> i & 1u) continue;
+    if ((w.redundant >> i & 1u) == 0) continue;
     double* b = at(w.redundant_systems, i).right_hand_side();
     for (int r = 0; r < cut_row_count(m); ++r) b[r] = lane(at(w.schur_rhs, r), i);
   }
@@ -179,7 +183,7 @@ inline void take_redundant_rows(const M& m, Workspace<Real, M>& w) {
 template <class M, class Real>
 inline void give_redundant_rows(const M& m, Workspace<Real, M>& w) {
   for (int i = 0; i < RealTraits<Real>::lanes; ++i) {
-    if (lane_bits(w.definite) >> i & 1u) continue;
+    if ((w.redundant >> i & 1u) == 0) continue;
     RedundantSystem& system = at(w.redundant_systems, i);
     double* b = system.right_hand_side();
     system.solve(b);
