@@ -4,19 +4,20 @@
 // With M = L^T D L and Y = L^-T J^T the Schur complement is A = Y^T D^-1 Y, and
 //   A lambda = Y^T D^-1 (L^-T tau) + bias - s.
 // lambda_r is the closure force of row r on chain 1 (N or N m). Redundant rows get the multipliers
-// of least norm; Workspace::row_inverse tells them.
+// of least norm (core/closures/redundant_rows.h); Workspace::kept_rows counts the independent ones.
 #pragma once
 
+#include "core/closures/redundant_rows.h"
 #include "core/kinematics/closure_jacobian.h"
 #include "core/numerics/branch_sparse.h"
-#include "core/numerics/semidefinite.h"
+#include "core/numerics/definite.h"
 
 namespace linkstudy {
 
-// A row is dependent when its pivot in J M^-1 J^T falls below this part of the largest diagonal: a
-// row that vanishes up to rounding has a diagonal of the same rounding and must not vouch for
-// itself.
-inline constexpr double kDependentRow = 1e-10;
+// Rows of J M^-1 J^T whose pivots all stay above this part of its largest diagonal are independent
+// beyond any drift of a resolved motion. Below it nothing is said about dependence: light links and
+// closures of other size have small pivots too, and only take the slower way.
+inline constexpr double kClearPivot = 1e-4;
 
 // Rows of J of one closure, zero off its support.
 template <class M, class C, class Real>
@@ -87,25 +88,37 @@ inline void sum_schur_complement(Size nc, const M& m, Workspace<Real, M>& w) {
 }
 
 template <class M, class Real>
-inline void update_schur_complement(const M& m, Workspace<Real, M>& w) {
+inline void update_schur_complement(const M& m, const Parameters<Real>& p, Workspace<Real, M>& w) {
   with_row_count(m, [&](auto nc) {
     sum_schur_complement(nc, m, w);
-    w.redundant =
-        factorize_semidefinite(nc, Real(kDependentRow), w.schur.data(), w.row_inverse.data());
+    const auto clear =
+        factorize_definite(nc, Real(kClearPivot), w.schur.data(), w.row_inverse.data());
+    w.redundant = lane_bits(clear) ^ kAllLanes<Real>;
   });
+  w.kept_rows = Real(static_cast<double>(cut_row_count(m)));
+  if constexpr (!FixedStructure<M>) {
+    if (w.redundant == 0) return;
+    for_closures<ClosureModel::cut>(m, [&](auto c) {
+      update_closure_jacobian(m, p, w, c, w.cut_jacobian.data() + row_begin(m, c) * m.nv);
+    });
+    factorize_redundant_rows(m, p, w);
+  }
 }
 
-// schur_rhs := A^-1 schur_rhs
+// schur_rhs := A^-1 schur_rhs; where the structure is fixed, only in lanes that are not redundant.
 template <class M, class Real>
 inline void solve_schur(const M& m, Workspace<Real, M>& w) {
-  if (w.redundant) {
-    solve_least_norm(cut_row_count(m), w.schur.data(), w.row_inverse.data(), w.gram.data(),
-                     w.scratch.data(), w.schur_rhs.data());
-    return;
+  if constexpr (!FixedStructure<M>) {
+    if (w.redundant != 0) take_redundant_rows(m, w);
   }
-  with_row_count(m, [&](auto nc) {
-    solve_definite(nc, w.schur.data(), w.row_inverse.data(), w.schur_rhs.data());
-  });
+  if (FixedStructure<M> || w.redundant != kAllLanes<Real>) {
+    with_row_count(m, [&](auto nc) {
+      solve_definite(nc, w.schur.data(), w.row_inverse.data(), w.schur_rhs.data());
+    });
+  }
+  if constexpr (!FixedStructure<M>) {
+    if (w.redundant != 0) give_redundant_rows(m, w);
+  }
 }
 
 // Y^T D^-1 x for row r
@@ -134,7 +147,7 @@ inline void solve_cut_joints(const M& m, const Parameters<Real>& p, Workspace<Re
   if (m.cut_rows.empty()) return;
   update_rows<ClosureModel::cut>(m, p, w);
   update_constraint_factor(m, p, w);
-  update_schur_complement(m, w);
+  update_schur_complement(m, p, w);
   for_range(Index<0>(), cut_row_count(m), [&](auto r) {
     const RowState<Real>& row = at(w.cut_rows, r);
     const ClosureParameters<Real>& n = at(p.closures, closure_of(m, r));

@@ -30,7 +30,7 @@ inline void project(const M& m, const Parameters<Real>& p, Real* q, Real* v, Rea
                     Workspace<Real, M>& w) {
   update_rows<ClosureModel::cut>(m, p, w);
   update_constraint_factor(m, p, w);
-  update_schur_complement(m, w);
+  update_schur_complement(m, p, w);
   for_range(Index<0>(), cut_row_count(m),
             [&](auto r) { at(w.schur_rhs, r) = projects(m, r) ? at(w.cut_rows, r).d : Real(0.0); });
   solve_correction(m, w, dv);

@@ -7,6 +7,7 @@
 
 #include "core/base/walk.h"
 #include "core/model/mechanism.h"
+#include "core/numerics/redundant_system.h"
 #include "core/spatial/spatial.h"
 
 namespace linkstudy {
@@ -82,13 +83,20 @@ struct Workspace {
   Array<RowState<Real>, N::ns> sde_rows;     // (ns)
   Array<Real, N::nc_nv> cut_y;               // (nc, nv) L^-T J^T, by row
   Array<Real, N::nc_nc> schur;               // (nc, nc) J M^-1 J^T, then its factor
-  Array<Real, N::nc_nc> gram;                // (nc, nc) factor's Gram matrix, for redundant rows
   Array<Real, N::nc> schur_rhs;              // (nc)
-  Array<Real, N::nc> row_inverse;            // (nc) 1 / pivot of the factor; 0: redundant row
-  Array<Real, 2 * N::nc> scratch;            // (2 nc)
+  Array<Real, N::nc> row_inverse;            // (nc) 1 / pivot of the factor
   Real supplied_power = Real(0.0);           // W
   Real dissipated_power = Real(0.0);         // W
-  bool redundant = false;                    // some lane dropped a row in the last evaluation
+  // Lanes, one bit each, whose cut rows depend on each other or nearly, so that `schur` holds no
+  // factor of theirs; and the number of independent rows, in each lane its own.
+  unsigned redundant = 0;
+  Real kept_rows = Real(0.0);
+  // For these lanes (core/closures/redundant_rows.h); a fixed structure leaves them to others.
+  static constexpr bool copes = !FixedStructure<M>;
+  Array<Real, copes ? -1 : 0> cut_jacobian;    // (nc, nv) J
+  Array<Real, copes ? -1 : 0> row_scale;       // (nc) m or 1
+  Array<Real, copes ? -1 : 0> velocity_scale;  // (nv) 1 or 1/m
+  std::array<RedundantSystem, copes ? RealTraits<Real>::lanes : 0> redundant_systems;
 };
 
 // Ground axes are constant: their unit forces are set here and never written again.
@@ -133,10 +141,14 @@ Workspace<Real> make_workspace(const Mechanism& m) {
   w.sde_rows = make_rows<Real>(m.sde_rows);
   w.cut_y.assign(nc * nv, Real(0.0));
   w.schur.assign(nc * nc, Real(0.0));
-  w.gram.assign(nc * nc, Real(0.0));
+  w.cut_jacobian.assign(nc * nv, Real(0.0));
   w.schur_rhs.assign(nc, Real(0.0));
   w.row_inverse.assign(nc, Real(1.0));
-  w.scratch.assign(2 * nc, Real(0.0));
+  w.row_scale.assign(nc, Real(1.0));
+  w.velocity_scale.assign(nv, Real(1.0));
+  for (RedundantSystem& s : w.redundant_systems) {
+    s = RedundantSystem(m.cut_row_count(), m.nv);
+  }
   return w;
 }
 

@@ -14,7 +14,9 @@ struct LaneEnd {
   Cause cause = Cause::ok;
   bool abandoned = false;  // rows became dependent where the kernel takes them as independent
   bool redundant = false;  // cut rows were dependent at some instant
-  long steps = 0;          // accepted
+  int least_rank = -1;     // of the cut rows, over the steps
+  int greatest_rank = -1;
+  long steps = 0;  // accepted
   double drift_max = 0.0;
   double energy_residual_max = 0.0;
   double energy_scale = 0.0;

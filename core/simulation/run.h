@@ -106,6 +106,7 @@ class Run {
     if (!m_.projects) return;
     update_factored_mass_matrix(m_, p_, 0.0, y_.data(), y_.data() + m_.nq, w_);
     project(m_, p_, y_.data(), y_.data() + m_.nq, correction_.data(), w_);
+    redundant_ |= w_.redundant;
   }
 
   void start_ledger() {
@@ -128,6 +129,8 @@ class Run {
     const Real drift = sqrt(square);
     drift_max_ = select(drift > drift_max_, drift, drift_max_);
     const auto closed = drift <= Real(setting_.drift_limit);
+    least_rank_ = select(w_.kept_rows < least_rank_, w_.kept_rows, least_rank_);
+    greatest_rank_ = select(w_.kept_rows > greatest_rank_, w_.kept_rows, greatest_rank_);
     if constexpr (FixedStructure<M>) abandon_lanes(active_ & redundant_);
     end_lanes(active_ & ~lane_bits(moving), Cause::diverged);
     end_lanes(active_ & ~lane_bits(closed), Cause::constraint_drift);
@@ -171,7 +174,9 @@ class Run {
   void end_lane(int i, Cause cause) {
     LaneEnd& end = *cases_[i].end;
     end.cause = cause;
-    end.redundant = (redundant_ >> i & 1u) != 0;
+    end.least_rank = static_cast<int>(lane(least_rank_, i));
+    end.greatest_rank = static_cast<int>(lane(greatest_rank_, i));
+    end.redundant = end.least_rank < cut_row_count(m_);
     end.steps = step_;
     end.drift_max = lane(drift_max_, i);
     end.energy_residual_max = lane(residual_max_, i);
@@ -193,7 +198,8 @@ class Run {
   const LaneCase* cases_;
   int count_;
   unsigned active_;         // lanes still running, one bit each
-  unsigned redundant_ = 0;  // lanes whose rows were dependent
+  unsigned redundant_ = 0;  // lanes whose rows were dependent or nearly
+  Real least_rank_ = Real(1e9), greatest_rank_ = Real(-1.0);  // independent rows seen
   long step_ = 0;
   Parameters<Real> p_;
   int size_;

@@ -104,6 +104,8 @@ class Packed {
     o.energy_residual_max = end.energy_residual_max;
     o.energy_scale = end.energy_scale;
     o.redundant = end.redundant;
+    o.least_rank = end.least_rank;
+    o.greatest_rank = end.greatest_rank;
     const auto& y = finals_[i];
     o.final_state.t = o.end_time;
     o.final_state.q.assign(y.begin(), y.begin() + m_.nq);
@@ -127,14 +129,14 @@ class Packed {
 
 // A lone case takes one lane: the same bits, and faster than a pack of copies.
 void run_pack(const Mechanism& m, const SimulationOptions& options, std::span<BatchCase> cases,
-              const RunLimits& limits) {
-  const SimdLevel level = simd_level();
-  const int lanes = cases.size() == 1 ? 1 : level.lanes;
+              const RunLimits& limits, const StepLoopChoice& choice) {
+  const InstructionSet isa = choice.level.isa;
+  const int lanes = cases.size() == 1 ? 1 : choice.level.lanes;
   Packed packed(m, cases);
-  packed.run(options, limits, find_kernel(m, level.isa, lanes));
+  packed.run(options, limits, find_kernel(m, isa, lanes, choice.general));
   for (std::size_t i = 0; i < cases.size(); ++i) {
     if (!packed.abandoned(i)) continue;
-    Packed(m, cases.subspan(i, 1)).run(options, limits, find_kernel(m, level.isa, 1, true));
+    Packed(m, cases.subspan(i, 1)).run(options, limits, find_kernel(m, isa, 1, true));
   }
 }
 
@@ -156,10 +158,16 @@ SimulationOutcome simulate(const Mechanism& mechanism, const Parameters<double>&
 
 void simulate_batch(const Mechanism& mechanism, const SimulationOptions& options,
                     std::vector<BatchCase>& cases, const RunLimits& limits) {
-  const auto lanes = static_cast<std::size_t>(simd_level().lanes);
+  simulate_batch(mechanism, options, cases, limits, {simd_level(), false});
+}
+
+void simulate_batch(const Mechanism& mechanism, const SimulationOptions& options,
+                    std::vector<BatchCase>& cases, const RunLimits& limits,
+                    const StepLoopChoice& choice) {
+  const auto lanes = static_cast<std::size_t>(choice.level.lanes);
   const std::span<BatchCase> all(cases);
   for (std::size_t i = 0; i < all.size(); i += lanes) {
-    run_pack(mechanism, options, all.subspan(i, std::min(lanes, all.size() - i)), limits);
+    run_pack(mechanism, options, all.subspan(i, std::min(lanes, all.size() - i)), limits, choice);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/isa.h"
 #include "core/model/parameters.h"
 #include "core/model/state.h"
 #include "core/simulation/cause.h"
@@ -36,6 +37,8 @@ struct SimulationOutcome {
   double energy_residual_max = 0.0;  // J, at the output instants
   double energy_scale = 0.0;         // J, largest kinetic energy or work seen there
   bool redundant = false;            // cut rows were dependent at some instant
+  int least_rank = -1;               // independent cut rows over the steps; -1: no step
+  int greatest_rank = -1;  // more than the least: a singular pose was passed, or steps are coarse
   State<double> final_state;
 };
 
@@ -56,5 +59,14 @@ struct BatchCase {
 // each pack.
 void simulate_batch(const Mechanism& mechanism, const SimulationOptions& options,
                     std::vector<BatchCase>& cases, const RunLimits& limits = {});
+
+// The same on step loops of choice, for comparisons of them.
+struct StepLoopChoice {
+  SimdLevel level;
+  bool general = false;  // not the one made for this structure
+};
+void simulate_batch(const Mechanism& mechanism, const SimulationOptions& options,
+                    std::vector<BatchCase>& cases, const RunLimits& limits,
+                    const StepLoopChoice& choice);
 
 }  // namespace linkstudy

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 
+#include "tests/mechanisms/bennett.h"
 #include "tests/mechanisms/four_bar.h"
 #include "tests/support/engine_probe.h"
 
@@ -41,8 +42,21 @@ TEST(Orientation, A_redundant_four_bar_accelerates_alike_however_it_lies) {
                                Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitZ()))
                                   .toRotationMatrix();
     const Eigen::VectorXd qdd = EngineProbe(turned(upright, r), 0.0).qdd();
-    // Redundant directions are solved in squared condition: 1e-9 leaves room for that.
-    EXPECT_LT((qdd - expected).norm(), 1e-9 * (1.0 + expected.norm())) << angle;
+    EXPECT_LT((qdd - expected).norm(), 1e-12 * (1.0 + expected.norm())) << angle;
+  }
+}
+
+// The least norm takes no side: translations of a closure weigh alike.
+TEST(Orientation, Redundant_multipliers_turn_with_the_linkage) {
+  const Eigen::Matrix3d r =
+      Eigen::AngleAxisd(0.8, Eigen::Vector3d(1, -2, 3).normalized()).toRotationMatrix();
+  for (const Linkage& upright : {four_bar(), bennett()}) {
+    EngineProbe before(upright, 0.0), after(turned(upright, r), 0.0);
+    for (const char* group : {"closure.C.force", "closure.C.torque"}) {
+      const Eigen::Vector3d expected = r * before.vector(group);
+      EXPECT_LT((after.vector(group) - expected).norm(), 1e-11 * (1.0 + expected.norm()))
+          << upright.name << " " << group;
+    }
   }
 }
 

@@ -7,7 +7,6 @@
 
 #include "core/numerics/branch_sparse.h"
 #include "core/numerics/rank.h"
-#include "core/numerics/semidefinite.h"
 #include "tests/support/near.h"
 #include "tests/support/random.h"
 
@@ -60,35 +59,6 @@ MatrixXd random_rows(Random& random, int rows, int columns, int rank) {
   return random.matrix(rows, rank, 1.0) * random.matrix(rank, columns, 1.0);
 }
 
-struct Solved {
-  bool dropped;
-  VectorXd x;
-  long kept;
-};
-
-Solved solve_semidefinite(const MatrixXd& a, const VectorXd& b) {
-  const auto n = static_cast<int>(a.rows());
-  RowMajor l = a, gram = RowMajor::Zero(n, n);
-  l.triangularView<Eigen::StrictlyUpper>().setConstant(1e99);  // never read
-  VectorXd inverse(n), scratch = VectorXd::Zero(2 * n);
-  Solved s{false, b, 0};
-  s.dropped = factorize_semidefinite(n, 1e-10, l.data(), inverse.data());
-  s.kept = (inverse.array() > 0.0).count();
-  if (s.dropped) {
-    solve_least_norm(n, l.data(), inverse.data(), gram.data(), scratch.data(), s.x.data());
-  } else {
-    solve_definite(n, l.data(), inverse.data(), s.x.data());
-  }
-  return s;
-}
-
-MatrixXd pseudo_inverse(const MatrixXd& a) {
-  Eigen::JacobiSVD<MatrixXd> svd(a, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  VectorXd s = svd.singularValues();
-  for (double& x : s) x = x > 1e-10 * svd.singularValues()[0] ? 1.0 / x : 0.0;
-  return svd.matrixV() * s.asDiagonal() * svd.matrixU().transpose();
-}
-
 }  // namespace
 
 TEST(BranchSparse, The_factor_multiplies_back_to_the_matrix_without_fill_in) {
@@ -124,52 +94,6 @@ TEST(BranchSparse, Solutions_are_those_of_a_dense_Cholesky_factorisation) {
     solve_branch(tree(c), factor.data(), x.data());
     ASSERT_TRUE(near_relative(x, c.h.llt().solve(b), 1e-14 * condition(c.h))) << "seed " << seed;
   }
-}
-
-TEST(Semidefinite, Independent_rows_are_all_kept_and_solved_as_by_a_dense_factorisation) {
-  for (std::uint64_t seed = 0; seed < 100; ++seed) {
-    Random random(seed);
-    const int n = 1 + random.below(6);
-    const MatrixXd j = random.matrix(n, n + 3, 1.0);
-    const MatrixXd a = j * j.transpose();
-    const VectorXd b = random.vector(n, 1.0);
-    const Solved s = solve_semidefinite(a, b);
-    ASSERT_FALSE(s.dropped) << "seed " << seed;
-    ASSERT_EQ(s.kept, n);
-    ASSERT_TRUE(near_relative(s.x, a.llt().solve(b), 1e-14 * condition(a))) << "seed " << seed;
-  }
-}
-
-TEST(Semidefinite, Dependent_rows_get_the_solution_of_the_pseudo_inverse) {
-  for (std::uint64_t seed = 0; seed < 200; ++seed) {
-    Random random(seed);
-    const int rank = 1 + random.below(4);
-    const int n = rank + 1 + random.below(3);
-    const MatrixXd j = random_rows(random, n, n + 2, rank);
-    const MatrixXd a = j * j.transpose();
-    const VectorXd b = a * random.vector(n, 1.0);  // in the range, as constraints are
-    const Solved s = solve_semidefinite(a, b);
-    ASSERT_TRUE(s.dropped) << "seed " << seed;
-    ASSERT_EQ(s.kept, rank) << "seed " << seed;
-    // Conditions of the Gram matrix enter squared; drawn ones stay below 1e5.
-    ASSERT_TRUE(near_relative(s.x, pseudo_inverse(a) * b, 1e-7)) << "seed " << seed;
-    ASSERT_TRUE(near_relative(a * s.x, b, 1e-9)) << "seed " << seed;
-  }
-}
-
-TEST(Semidefinite, A_row_out_of_range_is_met_in_least_squares) {
-  MatrixXd a(2, 2);
-  a << 1, 1, 1, 1;
-  const Solved s = solve_semidefinite(a, Eigen::Vector2d(3.0, 1.0));
-  EXPECT_TRUE(s.dropped);
-  EXPECT_TRUE(near_absolute(s.x, Eigen::Vector2d(1.0, 1.0), 1e-15));
-}
-
-TEST(Semidefinite, Three_equal_rows_share_the_multiplier) {
-  const MatrixXd a = MatrixXd::Constant(3, 3, 2.0);
-  const Solved s = solve_semidefinite(a, Eigen::Vector3d(6, 6, 6));
-  EXPECT_EQ(s.kept, 1);
-  EXPECT_TRUE(near_absolute(s.x, Eigen::Vector3d(1, 1, 1), 1e-14));
 }
 
 TEST(Rank, A_product_of_thin_factors_has_their_width_and_a_clear_gap) {
