@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/base/real.h"
+#include "core/base/walk.h"
 
 namespace linkstudy {
 
@@ -14,38 +15,38 @@ template <class Size, class Real>
 inline auto factorize_definite(Size n, Real margin, Real* a, Real* inverse) {
   const Real one(1.0);
   Real largest(0.0);
-  for (int j = 0; j < n; ++j) largest = max(largest, a[j * n + j]);
+  for_range(Index<0>(), n, [&](auto j) { largest = max(largest, a[j * n + j]); });
   const Real limit = margin * largest;
   auto definite = one > Real(0.0);
-  for (int j = 0; j < n; ++j) {
-    Real* row_j = a + j * n;
-    Real pivot = row_j[j];
-    for (int k = 0; k < j; ++k) pivot = nmadd(row_j[k] * row_j[k], a[k * n + k], pivot);
+  for_range(Index<0>(), n, [&](auto j) {
+    Real pivot = a[j * n + j];
+    for_range(Index<0>(), j,
+              [&](auto k) { pivot = nmadd(a[j * n + k] * a[j * n + k], a[k * n + k], pivot); });
     const auto clear = pivot > limit;
     definite = definite && clear;
-    row_j[j] = select(clear, pivot, one);
-    inverse[j] = one / row_j[j];
-    for (int i = j + 1; i < n; ++i) {
-      Real* row_i = a + i * n;
-      Real x = row_i[j];
-      for (int k = 0; k < j; ++k) x = nmadd(row_i[k] * row_j[k], a[k * n + k], x);
-      row_i[j] = x * inverse[j];
-    }
-  }
+    a[j * n + j] = select(clear, pivot, one);
+    inverse[j] = one / a[j * n + j];
+    for_range(successor(j), n, [&](auto i) {
+      Real x = a[i * n + j];
+      for_range(Index<0>(), j,
+                [&](auto k) { x = nmadd(a[i * n + k] * a[j * n + k], a[k * n + k], x); });
+      a[i * n + j] = x * inverse[j];
+    });
+  });
   return definite;
 }
 
 // b := A^-1 b
 template <class Size, class Real>
 inline void solve_definite(Size n, const Real* l, const Real* inverse, Real* b) {
-  for (int i = 1; i < n; ++i) {
-    for (int k = 0; k < i; ++k) b[i] = nmadd(l[i * n + k], b[k], b[i]);
-  }
-  for (int i = n - 1; i >= 0; --i) {
+  for_range(Index<0>(), n, [&](auto i) {
+    for_range(Index<0>(), i, [&](auto k) { b[i] = nmadd(l[i * n + k], b[k], b[i]); });
+  });
+  for_range_down(Index<0>(), n, [&](auto i) {
     Real x = b[i] * inverse[i];
-    for (int k = i + 1; k < n; ++k) x = nmadd(l[k * n + i], b[k], x);
+    for_range(successor(i), n, [&](auto k) { x = nmadd(l[k * n + i], b[k], x); });
     b[i] = x;
-  }
+  });
 }
 
 }  // namespace linkstudy

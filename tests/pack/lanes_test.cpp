@@ -1,0 +1,253 @@
+// Runs in lanes against runs alone: to the last bit, whatever the neighbours do.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+
+#include "tests/mechanisms/n_four_bar.h"
+#include "tests/mechanisms/pendulum.h"
+#include "tests/mechanisms/random_linkages.h"
+#include "tests/mechanisms/rsrrp.h"
+#include "tests/support/engine_probe.h"
+
+namespace linkstudy::testing {
+namespace {
+
+// A case and everything that its run left.
+struct Case {
+  Model model;
+  Observers<double> observers;
+  SimulationOutcome outcome;
+};
+
+std::vector<SimdLevel> levels() {
+  std::vector<SimdLevel> found;
+  for (const char* set : {"baseline", "avx2", "avx512"}) {
+    try {
+      found.push_back(choose_simd_level(set, nullptr));
+    } catch (const SimdError&) {
+    }
+  }
+  return found;
+}
+
+Observers<double> watch_everything(const Model& model, long steps) {
+  const std::vector<Channel> all = list_channels(model.mechanism);
+  Observers<double> o;
+  o.series.push_back({all, {0, steps, 7}, {}});
+  o.reductions.push_back({all.back(), {1, steps, 2}});
+  return o;
+}
+
+// Same structure, other numbers: masses, stiffness and speeds of case i.
+Case make_case(const Linkage& linkage, int i, long steps) {
+  Linkage changed = linkage;
+  const double factor = 1.0 + 0.03 * i;
+  for (Link& link : changed.links) {
+    link.mass *= factor;
+    link.inertia *= factor;
+  }
+  for (Closure& c : changed.closures) {
+    for (double& x : c.sde.stiffness) x *= 1.0 + 0.1 * i;
+  }
+  Case made{compile(changed), {}, {}};
+  made.observers = watch_everything(made.model, steps);
+  return made;
+}
+
+std::vector<Case> make_cases(const Linkage& linkage, int count, long steps) {
+  std::vector<Case> cases;
+  for (int i = 0; i < count; ++i) cases.push_back(make_case(linkage, i, steps));
+  return cases;
+}
+
+void run_cases(std::vector<Case>& cases, const SimulationOptions& options, SimdLevel level) {
+  std::vector<BatchCase> batch;
+  for (Case& c : cases) batch.push_back({&c.model.parameters, &c.model.start, &c.observers, {}});
+  simulate_batch(cases.front().model.mechanism, options, batch, {}, {level, true});
+  for (std::size_t i = 0; i < cases.size(); ++i) cases[i].outcome = batch[i].outcome;
+}
+
+bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+}
+
+::testing::AssertionResult same_run(const Case& a, const Case& b) {
+  const auto differ = [](const char* what) { return ::testing::AssertionFailure() << what; };
+  if (a.outcome.cause != b.outcome.cause) return differ("cause");
+  if (a.outcome.steps != b.outcome.steps) return differ("steps");
+  if (a.outcome.message != b.outcome.message) return differ("message");
+  if (!same_bits(a.outcome.final_state.q, b.outcome.final_state.q)) return differ("positions");
+  if (!same_bits(a.outcome.final_state.v, b.outcome.final_state.v)) return differ("velocities");
+  if (!same_bits({a.outcome.drift_max, a.outcome.energy_residual_max, a.outcome.energy_scale},
+                 {b.outcome.drift_max, b.outcome.energy_residual_max, b.outcome.energy_scale})) {
+    return differ("drift or energy");
+  }
+  if (!same_bits(a.observers.series[0].values, b.observers.series[0].values))
+    return differ("series");
+  const auto& r = a.observers.reductions[0];
+  const auto& s = b.observers.reductions[0];
+  if (!same_bits({r.min, r.max, r.sum, r.square, r.last},
+                 {s.min, s.max, s.sum, s.square, s.last})) {
+    return differ("reduction");
+  }
+  return ::testing::AssertionSuccess();
+}
+
+// All kinds of joints, closures and loads that there are.
+std::vector<Linkage> linkages() {
+  std::vector<Linkage> all = {rsrrp(), rsrrp_revolute(), n_four_bar(2)};
+  Linkage replaced = rsrrp();
+  replaced.closures[0].model = ClosureModel::sde;
+  all.push_back(replaced);
+  for (std::uint64_t seed = 0; seed < 6; ++seed) all.push_back(random_tree(seed));
+  for (const JointType type :
+       {JointType::spherical, JointType::revolute, JointType::universal, JointType::prismatic,
+        JointType::cylindrical, JointType::planar, JointType::fixed}) {
+    Linkage cut = random_closed_linkage(3, type, ClosureModel::cut);
+    for (const auto s :
+         {Stabilization::none, Stabilization::baumgarte, Stabilization::projection}) {
+      cut.closures[0].stabilization = s;
+      all.push_back(cut);
+    }
+    all.push_back(random_closed_linkage(4, type, ClosureModel::sde));
+  }
+  return all;
+}
+
+SimulationOptions short_run(long steps) {
+  return steps_of(1e-4, 1e-4 * static_cast<double>(steps), 1e-3);
+}
+
+}  // namespace
+
+TEST(Lanes, A_case_in_a_pack_has_the_bits_of_its_own_run) {
+  constexpr long steps = 60;
+  const std::vector<Linkage> all = linkages();
+  for (const SimdLevel& level : levels()) {
+    for (std::size_t n = 0; n < all.size(); ++n) {
+      const int count = level.lanes + 2;  // a full pack and a part of one
+      std::vector<Case> packed = make_cases(all[n], count, steps);
+      std::vector<Case> alone = make_cases(all[n], count, steps);
+      run_cases(packed, short_run(steps), level);
+      run_cases(alone, short_run(steps), {level.isa, 1});
+      for (std::size_t i = 0; i < packed.size(); ++i) {
+        EXPECT_EQ(packed[i].outcome.cause, Cause::ok) << packed[i].outcome.message;
+        EXPECT_TRUE(same_run(packed[i], alone[i]))
+            << name_of(level.isa) << ", linkage " << n << ", case " << i;
+      }
+    }
+  }
+}
+
+TEST(Lanes, Sets_with_fused_instructions_agree_on_every_bit_of_the_whole_rsrrp_run) {
+  if (!machine_has(InstructionSet::avx512)) GTEST_SKIP() << "no AVX-512 here";
+  for (const ClosureModel model : {ClosureModel::sde, ClosureModel::cut}) {
+    const Linkage linkage = rsrrp_test_vector(model);
+    const SimulationOptions options = steps_of(1e-4, 15.0, 1e-2);
+    std::vector<Case> eight = make_cases(linkage, 8, 150000);
+    std::vector<Case> four = make_cases(linkage, 4, 150000);
+    std::vector<Case> one = make_cases(linkage, 1, 150000);
+    run_cases(eight, options, {InstructionSet::avx512, 8});
+    run_cases(four, options, {InstructionSet::avx2, 4});
+    run_cases(one, options, {InstructionSet::avx2, 1});
+    ASSERT_EQ(one[0].outcome.steps, 150000);
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_TRUE(same_run(eight[i], four[i])) << i;
+    EXPECT_TRUE(same_run(eight[0], one[0]));
+  }
+}
+
+TEST(Lanes, Baseline_agrees_with_the_fused_sets_to_rounding) {
+  if (!machine_has(InstructionSet::avx2)) GTEST_SKIP() << "no fused instructions here";
+  std::vector<Case> fused = make_cases(rsrrp(), 2, 10000);
+  std::vector<Case> rounded = make_cases(rsrrp(), 2, 10000);
+  run_cases(fused, steps_of(1e-4, 1.0, 1e-2), {InstructionSet::avx2, 4});
+  run_cases(rounded, steps_of(1e-4, 1.0, 1e-2), {InstructionSet::baseline, 2});
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      EXPECT_NEAR(fused[i].outcome.final_state.q[k], rounded[i].outcome.final_state.q[k], 1e-10);
+    }
+  }
+}
+
+TEST(Lanes, Neither_order_nor_neighbours_change_a_bit) {
+  constexpr long steps = 200;
+  for (const SimdLevel& level : levels()) {
+    for (const ClosureModel model : {ClosureModel::sde, ClosureModel::cut}) {
+      const Linkage linkage = rsrrp_test_vector(model);
+      std::vector<Case> there = make_cases(linkage, level.lanes, steps);
+      std::vector<Case> back = make_cases(linkage, level.lanes, steps);
+      std::reverse(back.begin(), back.end());
+      std::vector<Case> odd = make_cases(linkage, level.lanes, steps);
+      for (std::size_t i = 1; i < odd.size(); ++i) {
+        const double bad = i % 2 == 0 ? 1e300 : std::numeric_limits<double>::quiet_NaN();
+        odd[i].model.parameters.bodies[1].mass = bad;
+        odd[i].model.start.v[0] = bad;
+      }
+      run_cases(there, short_run(steps), level);
+      run_cases(back, short_run(steps), level);
+      run_cases(odd, short_run(steps), level);
+      for (std::size_t i = 0; i < there.size(); ++i) {
+        EXPECT_TRUE(same_run(there[i], back[there.size() - 1 - i]));
+      }
+      EXPECT_TRUE(same_run(there[0], odd[0]));
+      for (std::size_t i = 1; i < odd.size(); ++i) {
+        EXPECT_EQ(odd[i].outcome.cause, Cause::diverged);
+        EXPECT_EQ(odd[i].outcome.steps, 0);
+      }
+    }
+  }
+}
+
+TEST(Lanes, A_lane_that_diverges_ends_as_it_would_alone_and_leaves_the_others) {
+  Linkage linkage = rsrrp();
+  linkage.closures[0].model = ClosureModel::sde;
+  constexpr long steps = 3000;
+  for (const SimdLevel& level : levels()) {
+    const auto make = [&] {
+      std::vector<Case> cases = make_cases(linkage, level.lanes, steps);
+      for (auto& s : cases[1].model.parameters.springs) s.stiffness = 1e9;  // far past the limit
+      cases[1].model.start.q[0] += 1e-6;
+      return cases;
+    };
+    std::vector<Case> packed = make(), alone = make();
+    run_cases(packed, short_run(steps), level);
+    run_cases(alone, short_run(steps), {level.isa, 1});
+    EXPECT_NE(packed[1].outcome.cause, Cause::ok);
+    EXPECT_GT(packed[1].outcome.steps, 0);
+    EXPECT_LT(packed[1].outcome.steps, steps);
+    for (std::size_t i = 0; i < packed.size(); ++i) {
+      EXPECT_TRUE(same_run(packed[i], alone[i])) << name_of(level.isa) << " lane " << i;
+      if (i != 1) {
+        EXPECT_EQ(packed[i].outcome.cause, Cause::ok);
+      }
+    }
+  }
+}
+
+TEST(Lanes, A_decaying_motion_ends_among_normal_numbers) {
+  Linkage linkage = pendulum();
+  linkage.gravity.setZero();
+  Load brake;
+  brake.name = "brake";
+  brake.type = LoadType::resistance;
+  brake.joint = linkage.joints[0].name;
+  brake.law = {ResistanceShape::linear, 1000.0, 1.0};
+  linkage.loads = {brake};
+  linkage.joints[0].velocity = {1.0};
+  const double inertia = EngineProbe(linkage).mass_matrix()(0, 0);
+  const double rate = 1000.0 / inertia;  // 1/s
+  const SimulationOptions options = steps_of(0.5 / rate, 3000.0 / rate, 100.0 / rate);
+  for (const SimdLevel& level : levels()) {
+    std::vector<Case> cases = make_cases(linkage, level.lanes, 6000);
+    run_cases(cases, options, level);
+    for (const Case& c : cases) {
+      EXPECT_LT(std::fabs(c.outcome.final_state.v[0]), 1e-306);  // steps too small to tell are lost
+    }
+    for (double x : cases[0].observers.series[0].values) {
+      EXPECT_FALSE(x != 0.0 && std::fabs(x) < std::numeric_limits<double>::min()) << x;
+    }
+  }
+}
+
+}  // namespace linkstudy::testing

@@ -1,0 +1,27 @@
+// The operations of packs, each compiled for its instruction set, behind plain numbers.
+#pragma once
+
+namespace linkstudy::testing {
+
+struct PackOperands {
+  double a, b, c;
+};
+
+// Results of one lane: what each operation gave for its a, b, c.
+struct PackResults {
+  double sum, difference, product, quotient, negated, root, absolute, least, greatest, madd, msub,
+      nmadd, chosen, sine, cosine, broadcast;
+  bool below, equal, finite;
+};
+
+// As many operands and results as there are lanes; bits: of a < b.
+using ApplyPack = void (*)(const PackOperands* in, PackResults* out, unsigned* bits);
+
+void apply_baseline_one(const PackOperands* in, PackResults* out, unsigned* bits);
+void apply_baseline_all(const PackOperands* in, PackResults* out, unsigned* bits);
+void apply_avx2_one(const PackOperands* in, PackResults* out, unsigned* bits);
+void apply_avx2_all(const PackOperands* in, PackResults* out, unsigned* bits);
+void apply_avx512_one(const PackOperands* in, PackResults* out, unsigned* bits);
+void apply_avx512_all(const PackOperands* in, PackResults* out, unsigned* bits);
+
+}  // namespace linkstudy::testing

@@ -1,0 +1,47 @@
+// Included by one source for each instruction set.
+#pragma once
+
+#include "core/base/elementary.h"
+#include "core/base/pack.h"
+#include "tests/pack/pack_probe.h"
+
+namespace linkstudy::testing {
+
+template <class Isa, int Lanes>
+void apply_pack(const PackOperands* operands, PackResults* results, unsigned* mask_bits) {
+  using Real = Pack<Lanes, Isa>;
+  Real a(0.0), b(0.0), c(0.0);
+  for (int i = 0; i < Lanes; ++i) {
+    set_lane(a, i, operands[i].a);
+    set_lane(b, i, operands[i].b);
+    set_lane(c, i, operands[i].c);
+  }
+  *mask_bits = lane_bits(a < b);
+  const unsigned equal = lane_bits(a == b), finite = lane_bits(is_finite(a));
+  const SinCos<Real> t = sincos(c);
+  const Real values[] = {a + b,
+                         a - b,
+                         a * b,
+                         a / b,
+                         -a,
+                         sqrt(abs(a)),
+                         abs(a),
+                         min(a, b),
+                         max(a, b),
+                         madd(a, b, c),
+                         msub(a, b, c),
+                         nmadd(a, b, c),
+                         select(a < b, a, c),
+                         t.sin,
+                         t.cos,
+                         Real(0.1)};
+  for (int i = 0; i < Lanes; ++i) {
+    double* out = &results[i].sum;
+    for (const Real& x : values) *out++ = lane(x, i);
+    results[i].below = (*mask_bits >> i & 1u) != 0;
+    results[i].equal = (equal >> i & 1u) != 0;
+    results[i].finite = (finite >> i & 1u) != 0;
+  }
+}
+
+}  // namespace linkstudy::testing

@@ -1,0 +1,160 @@
+// Packs against double: every operation, every lane, on every instruction set of this machine.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+#include "core/base/elementary.h"
+#include "core/base/isa.h"
+#include "tests/pack/pack_probe.h"
+#include "tests/support/random.h"
+
+namespace linkstudy::testing {
+namespace {
+
+struct Probe {
+  InstructionSet isa;
+  int lanes;
+  ApplyPack apply;
+};
+
+std::vector<Probe> probes() {
+  std::vector<Probe> found;
+  for (const Probe& p : {Probe{InstructionSet::baseline, 1, apply_baseline_one},
+                         Probe{InstructionSet::baseline, 2, apply_baseline_all},
+                         Probe{InstructionSet::avx2, 1, apply_avx2_one},
+                         Probe{InstructionSet::avx2, 4, apply_avx2_all},
+                         Probe{InstructionSet::avx512, 1, apply_avx512_one},
+                         Probe{InstructionSet::avx512, 8, apply_avx512_all}}) {
+    if (machine_has(p.isa)) found.push_back(p);
+  }
+  return found;
+}
+
+// Ordinary numbers, and those that break things.
+double draw(Random& random) {
+  constexpr double strange[] = {0.0,
+                                -0.0,
+                                1.0,
+                                -1.0,
+                                1e300,
+                                -1e300,
+                                1e-300,
+                                std::numeric_limits<double>::infinity(),
+                                std::numeric_limits<double>::quiet_NaN()};
+  const int i = random.below(40);
+  return i < 9 ? strange[i] : random.within(10.0);
+}
+
+::testing::AssertionResult same(double x, double y) {
+  if (std::isnan(x) && std::isnan(y)) return ::testing::AssertionSuccess();
+  if (std::memcmp(&x, &y, sizeof x) == 0) return ::testing::AssertionSuccess();
+  return ::testing::AssertionFailure() << x << " is not " << y;
+}
+
+void expect_same_as_double(const PackOperands& o, const PackResults& r, bool fused) {
+  const auto [a, b, c] = o;
+  EXPECT_TRUE(same(r.sum, a + b));
+  EXPECT_TRUE(same(r.difference, a - b));
+  EXPECT_TRUE(same(r.product, a * b));
+  EXPECT_TRUE(same(r.quotient, a / b));
+  EXPECT_TRUE(same(r.negated, -a));
+  EXPECT_TRUE(same(r.root, std::sqrt(std::fabs(a))));
+  EXPECT_TRUE(same(r.absolute, std::fabs(a)));
+  EXPECT_TRUE(same(r.least, a < b ? a : b));
+  EXPECT_TRUE(same(r.greatest, a > b ? a : b));
+  EXPECT_TRUE(same(r.madd, fused ? std::fma(a, b, c) : a * b + c));
+  EXPECT_TRUE(same(r.msub, fused ? std::fma(a, b, -c) : a * b - c));
+  EXPECT_TRUE(same(r.nmadd, fused ? std::fma(-a, b, c) : c - a * b));
+  EXPECT_TRUE(same(r.chosen, a < b ? a : c));
+  EXPECT_TRUE(same(r.broadcast, 0.1));
+  EXPECT_EQ(r.below, a < b);
+  EXPECT_EQ(r.equal, a == b);
+  EXPECT_EQ(r.finite, std::isfinite(a));
+}
+
+}  // namespace
+
+TEST(Pack, Every_lane_computes_what_a_double_does) {
+  for (const Probe& p : probes()) {
+    SCOPED_TRACE(std::string(name_of(p.isa)) + ", lanes " + std::to_string(p.lanes));
+    Random random(7);
+    for (int n = 0; n < 500; ++n) {
+      std::vector<PackOperands> in(static_cast<std::size_t>(p.lanes));
+      std::vector<PackResults> out(in.size());
+      for (PackOperands& o : in) o = {draw(random), draw(random), draw(random)};
+      unsigned bits = 0;
+      p.apply(in.data(), out.data(), &bits);
+      for (std::size_t i = 0; i < in.size(); ++i) {
+        expect_same_as_double(in[i], out[i], p.isa != InstructionSet::baseline);
+        EXPECT_EQ((bits >> i & 1u) != 0, in[i].a < in[i].b);
+      }
+      EXPECT_EQ(bits >> p.lanes, 0u);
+      if (HasFailure()) return;
+    }
+  }
+}
+
+TEST(Pack, Sine_and_cosine_are_within_two_units_in_the_last_place_in_every_lane) {
+  for (const Probe& p : probes()) {
+    Random random(11);
+    for (int n = 0; n < 5000; ++n) {
+      std::vector<PackOperands> in(static_cast<std::size_t>(p.lanes));
+      std::vector<PackResults> out(in.size());
+      for (PackOperands& o : in) o = {0.0, 0.0, random.within(1000.0)};
+      unsigned bits = 0;
+      p.apply(in.data(), out.data(), &bits);
+      for (std::size_t i = 0; i < in.size(); ++i) {
+        const long double sine = std::sin(static_cast<long double>(in[i].c));
+        const long double cosine = std::cos(static_cast<long double>(in[i].c));
+        const auto ulp = [](long double x) {
+          return std::nextafter(std::fabs(static_cast<double>(x)), 2.0) -
+                 std::fabs(static_cast<double>(x));
+        };
+        ASSERT_LE(std::fabs(out[i].sine - sine), 2.0L * ulp(sine)) << in[i].c;
+        ASSERT_LE(std::fabs(out[i].cosine - cosine), 2.0L * ulp(cosine)) << in[i].c;
+      }
+    }
+  }
+}
+
+TEST(Pack, Sets_with_fused_instructions_agree_on_every_bit_of_the_sine) {
+  if (!machine_has(InstructionSet::avx512)) GTEST_SKIP() << "no AVX-512 here";
+  Random random(13);
+  for (int n = 0; n < 2000; ++n) {
+    PackOperands in[8];
+    PackResults wide[8], narrow[8];
+    unsigned bits = 0;
+    for (PackOperands& o : in) o = {0.0, 0.0, random.within(1000.0)};
+    apply_avx512_all(in, wide, &bits);
+    apply_avx2_all(in, narrow, &bits);
+    apply_avx2_all(in + 4, narrow + 4, &bits);
+    for (int i = 0; i < 8; ++i) {
+      ASSERT_TRUE(same(wide[i].sine, narrow[i].sine));
+      ASSERT_TRUE(same(wide[i].cosine, narrow[i].cosine));
+      PackResults one;
+      apply_avx512_one(in + i, &one, &bits);
+      ASSERT_TRUE(same(wide[i].sine, one.sine));
+    }
+  }
+}
+
+TEST(SimdLevel, The_environment_chooses_set_and_lanes_or_is_refused) {
+  EXPECT_EQ(choose_simd_level("baseline", nullptr).lanes, 2);
+  EXPECT_EQ(choose_simd_level("baseline", "1").lanes, 1);
+  EXPECT_EQ(choose_simd_level("baseline", "1").isa, InstructionSet::baseline);
+  EXPECT_THROW(choose_simd_level("baseline", "3"), SimdError);
+  EXPECT_THROW(choose_simd_level("sse9", nullptr), SimdError);
+  const SimdLevel level = choose_simd_level(nullptr, nullptr);
+  EXPECT_TRUE(machine_has(level.isa));
+  if (!machine_has(InstructionSet::avx512)) {
+    EXPECT_THROW(choose_simd_level("avx512", nullptr), SimdError);
+  } else {
+    EXPECT_EQ(level.isa, InstructionSet::avx512);
+    EXPECT_EQ(level.lanes, 8);
+  }
+}
+
+}  // namespace linkstudy::testing
