@@ -1,5 +1,6 @@
 #include "core/simulation/prepare.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -35,6 +36,14 @@ void warn_of_redundancy(Preparation& p) {
   p.warnings.push_back(std::to_string(rows - rank) + " of " + std::to_string(rows) +
                        " closure equations are redundant at the start: multipliers are those "
                        "of least norm, single reactions are not unique");
+  const auto& closures = p.model.mechanism.closures;
+  const bool drifts = std::any_of(closures.begin(), closures.end(), [](const auto& c) {
+    return c.model == ClosureModel::cut && c.stabilization == Stabilization::none;
+  });
+  if (!drifts) return;
+  p.warnings.push_back(
+      "redundant cut joints without stabilization drift apart, which may change how many equations "
+      "are redundant: use stabilization = \"baumgarte\" or \"projection\"");
 }
 
 bool accept_velocities(const AssemblyReport& a, Preparation& p) {

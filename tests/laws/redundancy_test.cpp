@@ -2,6 +2,7 @@
 // its multipliers must not depend on.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/mechanisms/bennett.h"
@@ -141,6 +142,19 @@ TEST(Redundancy, Accelerations_settle_as_a_link_loses_its_mass) {
     const double milli = crank(1e-3), micro = crank(1e-6), nano = crank(1e-9);
     EXPECT_NEAR((milli - nano) / (micro - nano), 1e3, 30.0) << linkage.name;
   }
+}
+
+TEST(Redundancy, A_start_without_stabilisation_is_warned_of_and_told_the_remedy) {
+  const auto warned = [](Stabilization stabilization) {
+    const Preparation p = prepare(bennett_with(3.0, stabilization), steps_of(1e-3, 1.0));
+    EXPECT_EQ(p.cause, Cause::ok) << p.message;
+    return std::count_if(p.warnings.begin(), p.warnings.end(), [](const std::string& text) {
+      return text.find("projection") != std::string::npos;
+    });
+  };
+  EXPECT_EQ(warned(Stabilization::none), 1);
+  EXPECT_EQ(warned(Stabilization::baumgarte), 0);
+  EXPECT_EQ(warned(Stabilization::projection), 0);
 }
 
 TEST(Redundancy, Multipliers_do_not_depend_on_the_unit_of_length) {
