@@ -139,6 +139,8 @@ void put(ByteWriter& out, const ProvenanceRow& row) {
   out.put_text(row.program_version);
   out.put_text(row.git_revision);
   out.put_text(row.command);
+  out.put_text(row.simd);
+  out.put_u32(row.lanes);
 }
 
 ProvenanceRow get_provenance(ByteReader& in) {
@@ -151,6 +153,8 @@ ProvenanceRow get_provenance(ByteReader& in) {
   row.program_version = in.get_text();
   row.git_revision = in.get_text();
   row.command = in.get_text();
+  row.simd = in.get_text();
+  row.lanes = in.get_u32();
   return row;
 }
 

@@ -14,7 +14,7 @@
 
 namespace linkstudy {
 
-inline constexpr std::uint32_t kJournalVersion = 1;
+inline constexpr std::uint32_t kJournalVersion = 2;
 inline constexpr std::size_t kJournalHeaderSize = 80;
 
 using JournalRecord =

@@ -43,6 +43,8 @@ struct ProvenanceRow {
   std::string program_version;
   std::string git_revision;
   std::string command;
+  std::string simd{};       // instruction set of the step loops on rank 0
+  std::uint32_t lanes = 1;  // cases that run side by side there
 };
 
 struct StudyResults {

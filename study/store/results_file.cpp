@@ -136,10 +136,15 @@ void read_provenance(const DataGroup& group, StudyResults& results) {
   const auto& version = values_of<std::string>(group, "program_version");
   const auto& revision = values_of<std::string>(group, "git_revision");
   const auto& command = values_of<std::string>(group, "command");
+  const bool has_lanes = find_column(group, "lanes") != nullptr;
   for (std::size_t i = 0; i < event.size(); ++i) {
     results.provenance.push_back({event[i], time[i], static_cast<std::uint64_t>(total[i]),
                                   static_cast<std::uint32_t>(ranks[i]), host[i], version[i],
-                                  revision[i], command[i]});
+                                  revision[i], command[i], "", 1});
+    if (!has_lanes) continue;
+    results.provenance.back().simd = values_of<std::string>(group, "simd")[i];
+    results.provenance.back().lanes =
+        static_cast<std::uint32_t>(values_of<std::int64_t>(group, "lanes")[i]);
   }
   for (const DataAttribute& text : group.attributes) {
     results.texts.push_back({text.name, attribute<std::string>(group, text.name)});

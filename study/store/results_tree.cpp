@@ -117,7 +117,8 @@ DataGroup runtime_group(const std::vector<Evaluation>& evaluations) {
   DataGroup group{"runtime", {evaluation_axis(evaluations)}, {}, {}};
   group.columns.push_back({"wall_s",
                            "s",
-                           "wall time of the evaluation",
+                           "wall time of the evaluation; of those that ran side by side, the "
+                           "time of all divided by their number",
                            "runtime",
                            column_of(evaluations, [](const auto& e) { return e.wall_s; }),
                            {}});
@@ -158,6 +159,10 @@ DataGroup provenance_group(const std::vector<ProvenanceRow>& rows,
       column_of(rows, [](const Row& r) { return r.program_version; }));
   add("git_revision", "", "revision it was built from",
       column_of(rows, [](const Row& r) { return r.git_revision; }));
+  add("simd", "", "instruction set of the step loops on rank 0",
+      column_of(rows, [](const Row& r) { return r.simd; }));
+  add("lanes", "", "evaluations that run side by side on rank 0",
+      column_of(rows, [](const Row& r) { return std::int64_t{r.lanes}; }));
   add("command", "", "command line", column_of(rows, [](const Row& r) { return r.command; }));
   for (const NamedText& text : texts) {
     group.attributes.push_back({text.name, text.text});

@@ -96,6 +96,8 @@ TEST_F(JournalFile, Gives_back_every_kind_of_record) {
   ASSERT_EQ(contents.provenance.size(), 1u);
   EXPECT_EQ(contents.provenance[0].total, 4u);
   EXPECT_EQ(contents.provenance[0].time_unix_s, 1.7e9 + 0.25);
+  EXPECT_EQ(contents.provenance[0].simd, "avx2");
+  EXPECT_EQ(contents.provenance[0].lanes, 4u);
 }
 
 // The layout as the header of journal_record.h states it, taken apart by hand.
@@ -103,7 +105,7 @@ TEST_F(JournalFile, Has_the_layout_it_documents) {
   write(1);
   const std::string bytes = read_file(path());
   EXPECT_EQ(bytes.substr(0, 8), "linkstJ\n");
-  EXPECT_EQ(bytes.substr(8, 4), std::string("\x01\0\0\0", 4));
+  EXPECT_EQ(bytes.substr(8, 4), std::string("\x02\0\0\0", 4));
   EXPECT_EQ(bytes.substr(12, 64), kInput);
   std::uint32_t length = 0;
   std::uint32_t sum = 0;
@@ -204,7 +206,7 @@ TEST_F(JournalFile, Another_version_is_refused_by_name) {
   std::memcpy(&bytes[76], &sum, 4);
   put(path(), bytes);
   EXPECT_THAT(message_of<StoreError>([&] { Journal(dir_, kInput, OpenMode::resume); }),
-              HasSubstr("journal version 9, this program reads version 1"));
+              HasSubstr("journal version 9, this program reads version 2"));
 }
 
 TEST_F(JournalFile, A_second_writer_is_refused_while_the_first_lives) {

@@ -73,6 +73,8 @@ TEST_F(ResultsFile, Gives_the_same_results_back) {
   EXPECT_EQ(read.provenance[1].event, "resume");
   EXPECT_EQ(read.provenance[1].ranks, 2u);
   EXPECT_EQ(read.provenance[1].command, "linkstudy study");
+  EXPECT_EQ(read.provenance[0].simd, "avx2");
+  EXPECT_EQ(read.provenance[1].lanes, 8u);
   ASSERT_EQ(read.texts.size(), 2u);
   EXPECT_EQ(read.texts[0].text, written.texts[0].text);
 }

@@ -95,8 +95,9 @@ inline StudyResults results() {
   results.references = {traces("reference", -1, 1501)};
   results.traces = {traces("evaluation_3", 3, 20)};
   results.tunings = {tuning()};
-  results.provenance = {{"start", 1.7e9 + 0.25, 4, 3, "n1", "0.1.0", "05ba0c3", "linkstudy study"},
-                        {"resume", 1.7e9 + 60, 4, 2, "n2", "0.1.0", "05ba0c3", "linkstudy study"}};
+  results.provenance = {
+      {"start", 1.7e9 + 0.25, 4, 3, "n1", "0.1.0", "05ba0c3", "linkstudy study", "avx2", 4},
+      {"resume", 1.7e9 + 60, 4, 2, "n2", "0.1.0", "05ba0c3", "linkstudy study", "avx512", 8}};
   results.texts = {{"input_text", "format = 1\nname = \"\u00e4\"\n"}, {"machine", "x86_64"}};
   return results;
 }
