@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/isa.h"
 #include "study/cli/exit_code.h"
 #include "study/cli/input.h"
 #include "study/schedule/launcher.h"
@@ -26,6 +27,8 @@ Failure describe_failure(const std::exception_ptr& error) {
     return make_failure(kInputError, launch.what());
   } catch (const UsageError& usage) {
     return make_failure(kInputError, usage.what());
+  } catch (const SimdError& simd) {
+    return make_failure(kInputError, simd.what());
   } catch (const StoreError& store) {
     return make_failure(kInputError, store.what());
   } catch (const ReferenceFailure& reference) {

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <filesystem>
 
+#include "core/base/isa.h"
 #include "core/topology/nearest_name.h"
 #include "study/cli/exit_code.h"
 #include "study/cli/input.h"
@@ -134,6 +135,7 @@ void write_csv(const CommandLine& line, const Observers<double>& observers) {
 }  // namespace
 
 int run_simulate(const CommandLine& line) {
+  simd_level();  // a wrong LINKSTUDY_SIMD or LINKSTUDY_LANES ends the program here
   if (line.csv) require_writable(*line.csv);
   const ModelInput input = read_model_input(line);
   const auto begin = Clock::now();

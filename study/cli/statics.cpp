@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "core/base/isa.h"
 #include "study/cli/exit_code.h"
 #include "study/cli/input.h"
 #include "study/cli/model_report.h"
@@ -44,6 +45,7 @@ std::string values_text(const Preparation& preparation, SimulationOptions option
 }  // namespace
 
 int run_statics(const CommandLine& line) {
+  simd_level();  // a wrong LINKSTUDY_SIMD or LINKSTUDY_LANES ends the program here
   ModelInput input = read_model_input(line);
   input.options.start = Start::equilibrium;
   for (Joint& joint : input.linkage.joints) joint.velocity.clear();

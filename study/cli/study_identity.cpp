@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <thread>
 
+#include "core/base/isa.h"
 #include "study/cli/version.h"
 #include "study/config/toml_reader.h"
 #include "study/config/toml_writer.h"
@@ -85,7 +86,9 @@ StudyIdentity make_identity(const CommandLine& line, const Evaluator& evaluator,
                     transport.host(),
                     program_version(),
                     git_revision(),
-                    line.command};
+                    line.command,
+                    std::string(name_of(simd_level().isa)),
+                    static_cast<std::uint32_t>(simd_level().lanes)};
   return identity;
 }
 
