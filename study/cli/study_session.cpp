@@ -9,10 +9,12 @@
 #include <future>
 #include <limits>
 
+#include "core/base/isa.h"
 #include "study/cli/exit_code.h"
 #include "study/cli/report_error.h"
 #include "study/cli/study_identity.h"
 #include "study/cli/version.h"
+#include "study/evaluate/form_packs.h"
 #include "study/schedule/launcher.h"
 #include "study/store/directory.h"
 #include "study/store/status.h"
@@ -95,29 +97,38 @@ std::string one_line(std::string text) {
   return text;
 }
 
-Evaluation to_evaluation(const Point& point, const TaskResult& task, const CaseResult& result) {
+Evaluation to_evaluation(const Point& point, const CaseResult& result, int rank, double seconds) {
   Evaluation evaluation;
   evaluation.point = point;
   evaluation.status = result.status;
   evaluation.message = one_line(result.message);
   evaluation.responses = result.responses;
   evaluation.attempts = result.attempts;
-  evaluation.wall_s = task.seconds;
-  evaluation.rank = task.rank;
+  evaluation.wall_s = seconds;
+  evaluation.rank = rank;
   evaluation.host = result.host;
   return evaluation;
 }
 
-CaseResult result_of(const TaskResult& task) {
-  if (!task.failed) return decode_result(task.bytes);
+std::vector<CaseResult> results_of(const TaskResult& task, std::size_t count) {
+  if (!task.failed) return decode_results(task.bytes);
   CaseResult result;
   result.status = Cause::exception;
   result.message = task.bytes;
-  return result;
+  return std::vector<CaseResult>(count, result);
 }
 
 bool same_values(const Point& a, const Point& b) {
-  return encode_point(a) == encode_point(b);
+  return encode_points({&a, 1}) == encode_points({&b, 1});
+}
+
+// What a rank does with a task.
+std::string evaluate_task(Evaluator& evaluator, const std::string& task, const std::string& host) {
+  std::vector<std::vector<Value>> values;
+  for (Point& point : decode_points(task)) values.push_back(std::move(point.values));
+  std::vector<CaseResult> results = evaluator.evaluate(values);
+  for (CaseResult& result : results) result.host = host;
+  return encode_results(results);
 }
 
 // Of a tune, the budget.
@@ -146,6 +157,7 @@ class Launch {
   bool is_first() const { return transport_.rank() == 0; }
 
   int read_input() {
+    simd_level();  // a wrong LINKSTUDY_SIMD or LINKSTUDY_LANES ends the program here
     const StudyInput input = read_study_input(line_, kind_);
     Diagnostics diagnostics;
     evaluator_ = make_evaluator(input, diagnostics);
@@ -168,9 +180,9 @@ class Launch {
 
   void print_banner(const StudyIdentity& identity) {
     const std::string revision = git_revision().empty() ? "" : " " + git_revision();
-    fmt::print(stderr, "linkstudy {}{}, {} rank{} on {} node{}, 1 lane, input {}\n",
+    fmt::print(stderr, "linkstudy {}{}, {} rank{} on {} node{}, SIMD {}, input {}\n",
                program_version(), revision, transport_.size(), transport_.size() == 1 ? "" : "s",
-               transport_.nodes(), transport_.nodes() == 1 ? "" : "s",
+               transport_.nodes(), transport_.nodes() == 1 ? "" : "s", simd_text(),
                identity.input_sha256.substr(0, 12));
     const std::string counts = counts_text(*record_, total_);
     fmt::print(stderr, "{}: {}\n", record_->directory().string(), counts);
@@ -209,9 +221,7 @@ class Launch {
     const std::string host = transport_.host();
     Evaluator& evaluator = *evaluator_;
     const auto compute = [&evaluator, host](const std::string& task) {
-      CaseResult result = evaluator.evaluate(decode_point(task).values);
-      result.host = host;
-      return encode_result(result);
+      return evaluate_task(evaluator, task, host);
     };
     int code = kDone;
     {
@@ -283,13 +293,19 @@ StudySession::StudySession(const CommandLine& line, Evaluator& evaluator, StudyR
 
 void StudySession::evaluate(const std::vector<Point>& points) {
   check_failures();
-  std::vector<Point> pending;
-  std::vector<std::string> tasks;
+  const std::vector<Point> missing = missing_of(points);
+  const auto& parameters = evaluator_.parameters();
+  run_packs(form_packs(missing, parameters, simd_level().lanes, pool_.ranks()));
+  // What failed outside the evaluations (no memory, a message over its limit) may do alone.
+  run_packs(form_packs(missing_of(missing), parameters, 1, pool_.ranks()));
+}
+
+std::vector<Point> StudySession::missing_of(const std::vector<Point>& points) const {
+  std::vector<Point> missing;
   for (const Point& point : points) {
     const auto known = record_.evaluations().find(point.id);
     if (known == record_.evaluations().end()) {
-      pending.push_back(point);
-      tasks.push_back(encode_point(point));
+      missing.push_back(point);
     } else if (!same_values(known->second.point, point)) {
       throw StoreError(fmt::format(
           "{}: evaluation {} in the journal has other inputs than this program asks for; continue "
@@ -297,9 +313,15 @@ void StudySession::evaluate(const std::vector<Point>& points) {
           record_.directory().string(), point.id));
     }
   }
-  if (tasks.empty()) return;
+  return missing;
+}
+
+void StudySession::run_packs(const std::vector<std::vector<Point>>& packs) {
+  if (packs.empty()) return;
+  std::vector<std::string> tasks;
+  for (const std::vector<Point>& pack : packs) tasks.push_back(encode_points(pack));
   const RunOutcome outcome = pool_.run(
-      std::move(tasks), [&](const TaskResult& result) { take(pending[result.index], result); });
+      std::move(tasks), [&](const TaskResult& task) { take_pack(packs[task.index], task); });
   record_.journal().sync();
   abandoned_ = outcome.end == RunEnd::abandoned;
   if (outcome.interrupted()) {
@@ -309,22 +331,34 @@ void StudySession::evaluate(const std::vector<Point>& points) {
   if (!stop_reason_.empty()) throw TooManyFailures(stop_reason_);
 }
 
-void StudySession::take(const Point& point, const TaskResult& task) {
-  const CaseResult result = result_of(task);
-  record_.add(to_evaluation(point, task, result), result.traces);
-  log_.debug("evaluation {}: {} in {:.3g} s on rank {}", point.id, name_of(result.status),
-             task.seconds, task.rank);
-  if (result.status != Cause::ok) {
-    ++failures_;
-    log_.warn("evaluation {}: {}: {}", point.id, name_of(result.status), one_line(result.message));
-    try {
-      check_failures();
-    } catch (const TooManyFailures& reason) {
-      stop_reason_ = reason.what();
-      pool_.cancel();
-    }
+// A pack that failed as a whole is left missing, so that its points are run alone.
+void StudySession::take_pack(const std::vector<Point>& pack, const TaskResult& task) {
+  if (task.failed && pack.size() > 1) {
+    log_.warn("{} evaluations from {} on: {}", pack.size(), pack[0].id, one_line(task.bytes));
+    return;
+  }
+  const std::vector<CaseResult> results = results_of(task, pack.size());
+  const double seconds = task.seconds / static_cast<double>(pack.size());
+  for (std::size_t i = 0; i < pack.size(); ++i) {
+    take(to_evaluation(pack[i], results.at(i), task.rank, seconds), results[i].traces);
   }
   progress_.update(record_.evaluations().size(), failures_, Clock::now());
+}
+
+void StudySession::take(const Evaluation& evaluation, const std::vector<CaseTraces>& traces) {
+  record_.add(evaluation, traces);
+  log_.debug("evaluation {}: {} in {:.3g} s on rank {}", evaluation.point.id,
+             name_of(evaluation.status), evaluation.wall_s, evaluation.rank);
+  if (evaluation.status == Cause::ok) return;
+  ++failures_;
+  log_.warn("evaluation {}: {}: {}", evaluation.point.id, name_of(evaluation.status),
+            evaluation.message);
+  try {
+    check_failures();
+  } catch (const TooManyFailures& reason) {
+    stop_reason_ = reason.what();
+    pool_.cancel();
+  }
 }
 
 void StudySession::check_failures() {

@@ -37,8 +37,8 @@ class StudySession {
   StudyRecord& record() { return record_; }
   spdlog::logger& log() { return log_; }
 
-  // Evaluates the points that are not in the record yet and records them. Throws Interrupted and
-  // TooManyFailures with everything journalled.
+  // Evaluates the points that are not in the record yet, in packs that fill the lanes of the ranks,
+  // and records each by itself. Throws Interrupted and TooManyFailures with everything journalled.
   void evaluate(const std::vector<Point>& points);
 
   // From the pool's clock.
@@ -48,7 +48,10 @@ class StudySession {
   bool is_abandoned() const { return abandoned_; }
 
  private:
-  void take(const Point& point, const TaskResult& task);
+  std::vector<Point> missing_of(const std::vector<Point>& points) const;
+  void run_packs(const std::vector<std::vector<Point>>& packs);
+  void take_pack(const std::vector<Point>& pack, const TaskResult& task);
+  void take(const Evaluation& evaluation, const std::vector<CaseTraces>& traces);
   void check_failures();
 
   const CommandLine& line_;

@@ -55,18 +55,13 @@ Cause get_cause(ByteReader& in) {
   return static_cast<Cause>(number);
 }
 
-}  // namespace
-
-std::string encode_point(const Point& point) {
-  ByteWriter out;
+void put_point(ByteWriter& out, const Point& point) {
   out.put_u64(point.id);
   out.put_u64(point.values.size());
   for (const Value& value : point.values) put_value(out, value);
-  return out.bytes();
 }
 
-Point decode_point(std::string_view bytes) {
-  ByteReader in(bytes);
+Point get_point(ByteReader& in) {
   Point point;
   point.id = in.get_u64();
   const std::size_t count = in.get_count(1);
@@ -74,8 +69,7 @@ Point decode_point(std::string_view bytes) {
   return point;
 }
 
-std::string encode_result(const CaseResult& result) {
-  ByteWriter out;
+void put_result(ByteWriter& out, const CaseResult& result) {
   out.put_u8(static_cast<std::uint8_t>(result.status));
   out.put_text(result.message);
   put_numbers(out, result.responses);
@@ -87,11 +81,9 @@ std::string encode_result(const CaseResult& result) {
   }
   out.put_u32(result.attempts);
   out.put_text(result.host);
-  return out.bytes();
 }
 
-CaseResult decode_result(std::string_view bytes) {
-  ByteReader in(bytes);
+CaseResult get_result(ByteReader& in) {
   CaseResult result;
   result.status = get_cause(in);
   result.message = in.get_text();
@@ -106,6 +98,36 @@ CaseResult decode_result(std::string_view bytes) {
   result.attempts = in.get_u32();
   result.host = in.get_text();
   return result;
+}
+
+}  // namespace
+
+std::string encode_points(std::span<const Point> points) {
+  ByteWriter out;
+  out.put_u64(points.size());
+  for (const Point& point : points) put_point(out, point);
+  return out.bytes();
+}
+
+std::vector<Point> decode_points(std::string_view bytes) {
+  ByteReader in(bytes);
+  std::vector<Point> points(in.get_count(1));
+  for (Point& point : points) point = get_point(in);
+  return points;
+}
+
+std::string encode_results(std::span<const CaseResult> results) {
+  ByteWriter out;
+  out.put_u64(results.size());
+  for (const CaseResult& result : results) put_result(out, result);
+  return out.bytes();
+}
+
+std::vector<CaseResult> decode_results(std::string_view bytes) {
+  ByteReader in(bytes);
+  std::vector<CaseResult> results(in.get_count(1));
+  for (CaseResult& result : results) result = get_result(in);
+  return results;
 }
 
 }  // namespace linkstudy

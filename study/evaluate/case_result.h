@@ -1,6 +1,7 @@
 // What an evaluation answers, and the bytes in which points and answers travel between ranks.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,10 +25,10 @@ struct CaseResult {
   std::string host;
 };
 
-std::string encode_point(const Point& point);
-Point decode_point(std::string_view bytes);
+std::string encode_points(std::span<const Point> points);
+std::vector<Point> decode_points(std::string_view bytes);
 
-std::string encode_result(const CaseResult& result);
-CaseResult decode_result(std::string_view bytes);
+std::string encode_results(std::span<const CaseResult> results);
+std::vector<CaseResult> decode_results(std::string_view bytes);
 
 }  // namespace linkstudy

@@ -37,6 +37,36 @@ void fail(CaseResult& result, Cause cause, const std::string& message) {
   result.message = message;
 }
 
+// A step of one evaluation; what it throws ends that one and no other.
+template <class Step>
+void guard(CaseResult& result, const Step& step) {
+  try {
+    step();
+  } catch (const InvalidPoint& error) {
+    fail(result, Cause::invalid_point, error.what());
+  } catch (const std::exception& error) {
+    fail(result, Cause::exception, error.what());
+  }
+}
+
+void name_load_case(const LoadCaseInput& load_case, CaseResult& result) {
+  if (result.status == Cause::ok || load_case.name.empty()) return;
+  result.message = fmt::format("load case '{}': {}", load_case.name, result.message);
+}
+
+// Adds the time it lives.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+  ~Stopwatch() { seconds_ += std::chrono::duration<double>(Clock::now() - begin_).count(); }
+
+ private:
+  double& seconds_;
+  Clock::time_point begin_ = Clock::now();
+};
+
 struct SignalSource {
   std::vector<Channel> channels;
   double end_time = 0.0;
@@ -157,59 +187,125 @@ std::vector<Override> Evaluator::overrides_of(const LoadCaseInput& load_case,
   return join(join(input_.base_set, load_case.set), to_overrides(parameters_, point));
 }
 
-CaseResult Evaluator::evaluate(const std::vector<Value>& point) {
-  CaseResult result;
-  for (std::uint32_t i = 1; i <= kAttempts; ++i) {
-    result = attempt(point);
-    result.attempts = i;
-    if (result.status != Cause::exception) break;
-  }
-  result.responses.resize(responses_.size(), kNan);
-  return result;
-}
+struct Evaluator::Attempt {
+  const std::vector<Value>* values;
+  CaseResult result{};
+  double spent_s = 0.0;
+  bool is_running() const { return result.status == Cause::ok; }
+};
 
-CaseResult Evaluator::attempt(const std::vector<Value>& point) {
-  CaseResult result;
-  const auto begin = Clock::now();
-  for (std::size_t i = 0; i < load_cases_.size() && result.status == Cause::ok; ++i) {
-    const std::chrono::duration<double> spent = Clock::now() - begin;
-    const double left = timeout_s_ > 0.0 ? std::max(1e-6, timeout_s_ - spent.count()) : 0.0;
-    try {
-      run_case(i, point, left, result);
-    } catch (const InvalidPoint& error) {
-      fail(result, Cause::invalid_point, error.what());
-    } catch (const std::exception& error) {
-      fail(result, Cause::exception, error.what());
-    }
-    if (result.status != Cause::ok && !load_cases_[i].name.empty()) {
-      result.message = fmt::format("load case '{}': {}", load_cases_[i].name, result.message);
+std::vector<CaseResult> Evaluator::evaluate(std::span<const std::vector<Value>> points) {
+  std::vector<Attempt> attempts;
+  for (const std::vector<Value>& point : points) attempts.push_back({&point});
+  attempt(attempts);
+  for (Attempt& one : attempts) {
+    for (std::uint32_t i = 2; i <= kAttempts && one.result.status == Cause::exception; ++i) {
+      one = {one.values};
+      attempt({&one, 1});
+      one.result.attempts = i;
     }
   }
-  return result;
+  std::vector<CaseResult> results;
+  for (Attempt& one : attempts) {
+    one.result.responses.resize(responses_.size(), kNan);
+    results.push_back(std::move(one.result));
+  }
+  return results;
 }
 
-void Evaluator::run_case(std::size_t load_case, const std::vector<Value>& point, double timeout_s,
-                         CaseResult& result) {
+void Evaluator::attempt(std::span<Attempt> attempts) {
+  for (std::size_t i = 0; i < load_cases_.size(); ++i) {
+    std::vector<Attempt*> running;
+    for (Attempt& one : attempts) {
+      if (one.is_running()) running.push_back(&one);
+    }
+    const auto cases = prepare_cases(i, attempts);
+    for (const CaseGroup& group : group_cases(cases)) run_group(i, group, attempts);
+    for (Attempt* one : running) name_load_case(load_cases_[i], one->result);
+  }
+}
+
+std::vector<std::unique_ptr<PreparedCase>> Evaluator::prepare_cases(std::size_t load_case,
+                                                                    std::span<Attempt> attempts) {
+  std::vector<std::unique_ptr<PreparedCase>> cases;
+  for (std::size_t i = 0; i < attempts.size(); ++i) {
+    Attempt& one = attempts[i];
+    if (!one.is_running()) continue;
+    const Stopwatch watch(one.spent_s);
+    std::unique_ptr<PreparedCase> prepared;
+    guard(one.result, [&] { prepared = prepare_case(load_case, i, one); });
+    if (prepared) cases.push_back(std::move(prepared));
+  }
+  std::erase_if(cases, [&](const auto& item) { return end_if_late(attempts[item->point]); });
+  return cases;
+}
+
+// The others of a group must not wait for one that has no time left.
+bool Evaluator::end_if_late(Attempt& attempt) const {
+  const bool is_late = timeout_s_ > 0.0 && attempt.spent_s >= timeout_s_;
+  if (is_late) fail(attempt.result, Cause::timeout, "wall time used up before the run");
+  return is_late;
+}
+
+// Nothing when it ended here.
+std::unique_ptr<PreparedCase> Evaluator::prepare_case(std::size_t load_case, std::size_t point,
+                                                      Attempt& attempt) {
   const ReferenceRecord* record = reference(load_case, nullptr);
   const ModelInput input =
-      require_model(*input_.model, overrides_of(load_cases_[load_case], point));
-  const Preparation preparation = prepare(input.linkage, input.options);
+      require_model(*input_.model, overrides_of(load_cases_[load_case], *attempt.values));
+  Preparation preparation = prepare(input.linkage, input.options);
   if (preparation.cause != Cause::ok) {
-    return fail(result, preparation.cause, preparation.message);
+    fail(attempt.result, preparation.cause, preparation.message);
+    return nullptr;
   }
-  const Model& model = preparation.model;
-  RunMetrics metrics(input_, require_signals(input_, model.mechanism), input.options, record);
-  const SimulationOutcome outcome =
-      simulate(model.mechanism, model.parameters, model.start, input.options, metrics.observers(),
-               RunLimits{timeout_s, nullptr});
+  const StudySignals signals = require_signals(input_, preparation.model.mechanism);
+  RunMetrics metrics(input_, signals, input.options, record);
+  return std::unique_ptr<PreparedCase>(new PreparedCase{
+      point, input.options, std::move(preparation), std::move(metrics), SimulationOutcome()});
+}
+
+void Evaluator::run_group(std::size_t load_case, const CaseGroup& group,
+                          std::span<Attempt> attempts) {
+  double spent_s = 0.0;
+  try {
+    const Stopwatch watch(spent_s);
+    run_cases(group, limits_of(group, attempts));
+  } catch (const std::exception& error) {
+    for (const PreparedCase* item : group) {
+      fail(attempts[item->point].result, Cause::exception, error.what());
+    }
+    return;
+  }
+  for (const PreparedCase* item : group) {
+    Attempt& one = attempts[item->point];
+    one.spent_s += spent_s;
+    const Stopwatch watch(one.spent_s);
+    guard(one.result, [&] { store(load_case, *item, one); });
+  }
+}
+
+void Evaluator::store(std::size_t load_case, const PreparedCase& item, Attempt& attempt) {
+  const ReferenceRecord* record = reference(load_case, nullptr);
+  CaseResult& result = attempt.result;
   const std::vector<double> numbers =
-      metrics.reduce(outcome, find_worst_spectrum(preparation, record));
+      item.metrics.reduce(item.outcome, find_worst_spectrum(item.preparation, record));
   result.responses.insert(result.responses.end(), numbers.begin(), numbers.end());
-  std::vector<Trace> traces = metrics.traces();
+  std::vector<Trace> traces = item.metrics.traces();
   if (!traces.empty()) {
     result.traces.push_back({load_cases_[load_case].name, std::move(traces)});
   }
-  if (outcome.cause != Cause::ok) fail(result, outcome.cause, outcome.message);
+  if (item.outcome.cause != Cause::ok) fail(result, item.outcome.cause, item.outcome.message);
+}
+
+// What is left to the case with most of it: one that was long in preparing takes nothing from the
+// others.
+RunLimits Evaluator::limits_of(const CaseGroup& group, std::span<Attempt> attempts) const {
+  if (timeout_s_ <= 0.0) return {};
+  double left = 1e-6;
+  for (const PreparedCase* item : group) {
+    left = std::max(left, timeout_s_ - attempts[item->point].spent_s);
+  }
+  return {left, nullptr};
 }
 
 }  // namespace linkstudy

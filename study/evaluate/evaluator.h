@@ -1,17 +1,21 @@
-// From a point of the parameter space to its numbers; the only caller of the engine in study/.
+// From points of the parameter space to their numbers; the only caller of the engine in study/.
 //   point -> overrides on the base model -> ModelInput -> prepare -> simulate -> responses
 // in every load case, one after the other; the first that fails ends the evaluation with its cause.
-// An invalid model is Cause::invalid_point with the first diagnostic as message, an exception
-// Cause::exception after three attempts. The reference of a load case is run when first needed and
-// kept: every rank runs its own, and all get the same bits.
+// Points that can share step loops run side by side (prepared_case.h); what a point gets is, to the
+// last bit, what it gets alone. An invalid model is Cause::invalid_point with the first diagnostic
+// as message, an exception Cause::exception after three attempts, the second and third alone. The
+// reference of a load case is run when first needed and kept: every rank runs its own, and all get
+// the same bits.
 #pragma once
 
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "study/evaluate/case_result.h"
+#include "study/evaluate/prepared_case.h"
 #include "study/evaluate/reference_run.h"
 
 namespace linkstudy {
@@ -38,11 +42,12 @@ class Evaluator {
   // Histories of the references, by load case; empty without a reference.
   std::vector<CaseTraces> reference_traces() const;
 
-  // Longest time of one evaluation, s; 0: no limit.
+  // Longest time of one evaluation, s; 0: no limit. Cases side by side end together: their run
+  // counts in full for each.
   void set_timeout(double seconds) { timeout_s_ = seconds; }
 
-  // Any thread, one at a time.
-  CaseResult evaluate(const std::vector<Value>& point);
+  // One result for each point. Any thread, one at a time.
+  std::vector<CaseResult> evaluate(std::span<const std::vector<Value>> points);
 
  private:
   Evaluator(StudyInput input, std::vector<Parameter> parameters, StudySignals signals);
@@ -50,9 +55,16 @@ class Evaluator {
   std::vector<Override> overrides_of(const LoadCaseInput& load_case,
                                      const std::vector<Value>& point) const;
   const ReferenceRecord* reference(std::size_t load_case, const std::atomic<bool>* cancelled);
-  CaseResult attempt(const std::vector<Value>& point);
-  void run_case(std::size_t load_case, const std::vector<Value>& point, double timeout_s,
-                CaseResult& result);
+  struct Attempt;
+  void attempt(std::span<Attempt> attempts);
+  std::vector<std::unique_ptr<PreparedCase>> prepare_cases(std::size_t load_case,
+                                                           std::span<Attempt> attempts);
+  std::unique_ptr<PreparedCase> prepare_case(std::size_t load_case, std::size_t point,
+                                             Attempt& attempt);
+  bool end_if_late(Attempt& attempt) const;
+  void run_group(std::size_t load_case, const CaseGroup& group, std::span<Attempt> attempts);
+  void store(std::size_t load_case, const PreparedCase& item, Attempt& attempt);
+  RunLimits limits_of(const CaseGroup& group, std::span<Attempt> attempts) const;
 
   StudyInput input_;
   std::vector<Parameter> parameters_;

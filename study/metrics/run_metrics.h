@@ -17,6 +17,7 @@ class RunMetrics {
              const ReferenceRecord* reference);
 
   Observers<double>& observers() { return observers_; }
+  const Observers<double>& observers() const { return observers_; }
 
   // One number for each response of a load case (response_list.h). Of a run that failed only what
   // does not depend on its end is kept, the rest is NaN.

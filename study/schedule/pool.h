@@ -65,6 +65,8 @@ class Pool {
   Pool(const Pool&) = delete;
   Pool& operator=(const Pool&) = delete;
 
+  int ranks() const { return transport_.size(); }
+
   // Rank 0. Calls on_result once per task, in order of arrival, unless the run ends early. What
   // on_result throws ends the run and goes on to the caller; the pool stays usable.
   RunOutcome run(std::vector<std::string> tasks, const OnResult& on_result);

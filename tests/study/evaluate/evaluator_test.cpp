@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
 
 namespace linkstudy {
 namespace {
@@ -101,6 +102,12 @@ class Evaluation : public ::testing::Test {
     return Evaluator::make(std::move(*input), parameters, first, diagnostics_);
   }
 
+  static CaseResult evaluate(Evaluator& evaluator, const std::vector<Value>& point) {
+    return evaluator.evaluate({&point, 1}).at(0);
+  }
+
+  static std::string bytes_of(const CaseResult& result) { return encode_results({&result, 1}); }
+
   static double number(const Evaluator& evaluator, const CaseResult& result,
                        const std::string& name) {
     for (std::size_t i = 0; i < evaluator.responses().size(); ++i) {
@@ -129,7 +136,7 @@ tolerance = 0.01
 TEST_F(Evaluation, Of_the_reference_itself_has_no_error_at_all) {
   const auto evaluator = make(kAgainstItself);
   ASSERT_TRUE(evaluator) << said();
-  const CaseResult result = evaluator->evaluate({1e-3});
+  const CaseResult result = evaluate(*evaluator, {1e-3});
   EXPECT_EQ(result.status, Cause::ok) << result.message;
   for (const char* axis : {"x", "y", "z"}) {
     EXPECT_EQ(number(*evaluator, result, std::string("error_max_closure_C_force_") + axis), 0.0);
@@ -143,7 +150,7 @@ TEST_F(Evaluation, Against_a_turned_signal_is_off_by_twice_its_size) {
   const auto evaluator =
       make(std::string(kAgainstItself) + "reference_signal = \"-closure.C.force\"\n");
   ASSERT_TRUE(evaluator) << said();
-  const CaseResult result = evaluator->evaluate({1e-3});
+  const CaseResult result = evaluate(*evaluator, {1e-3});
   EXPECT_DOUBLE_EQ(number(*evaluator, result, "error_max_closure_C_force_y"), 2.0);
   EXPECT_DOUBLE_EQ(number(*evaluator, result, "error_rms_closure_C_force_y"), 2.0);
 }
@@ -151,7 +158,7 @@ TEST_F(Evaluation, Against_a_turned_signal_is_off_by_twice_its_size) {
 TEST_F(Evaluation, At_half_the_step_differs_by_the_order_of_RK4_only) {
   const auto evaluator = make(kAgainstItself);
   ASSERT_TRUE(evaluator) << said();
-  const CaseResult half = evaluator->evaluate({5e-4});
+  const CaseResult half = evaluate(*evaluator, {5e-4});
   EXPECT_GT(number(*evaluator, half, "error_max_closure_C_force_y"), 0.0);
   EXPECT_LT(number(*evaluator, half, "error_max_closure_C_force_y"), 1e-6);
 }
@@ -159,7 +166,7 @@ TEST_F(Evaluation, At_half_the_step_differs_by_the_order_of_RK4_only) {
 TEST_F(Evaluation, Without_a_common_time_grid_is_an_invalid_point) {
   const auto evaluator = make(kAgainstItself);
   ASSERT_TRUE(evaluator) << said();
-  const CaseResult result = evaluator->evaluate({0.1 / 1009});  // 1009 is prime and over the limit
+  const CaseResult result = evaluate(*evaluator, {0.1 / 1009});  // 1009 is prime and over the limit
   EXPECT_EQ(result.status, Cause::invalid_point);
   EXPECT_THAT(result.message, HasSubstr("no common time grid"));
   EXPECT_EQ(result.responses.size(), evaluator->responses().size());
@@ -168,7 +175,7 @@ TEST_F(Evaluation, Without_a_common_time_grid_is_an_invalid_point) {
 TEST_F(Evaluation, Of_an_impossible_value_is_an_invalid_point_with_its_reason) {
   const auto evaluator = make("[[vary]]\nparameter = \"link.rod.mass\"\nvalues = [1.0]\n");
   ASSERT_TRUE(evaluator) << said();
-  const CaseResult result = evaluator->evaluate({-1.0});
+  const CaseResult result = evaluate(*evaluator, {-1.0});
   EXPECT_EQ(result.status, Cause::invalid_point);
   EXPECT_THAT(result.message, HasSubstr("mass must be positive"));
 }
@@ -176,7 +183,7 @@ TEST_F(Evaluation, Of_an_impossible_value_is_an_invalid_point_with_its_reason) {
 TEST_F(Evaluation, Is_the_same_to_the_last_bit_when_repeated) {
   const auto evaluator = make(kAgainstItself);
   ASSERT_TRUE(evaluator) << said();
-  EXPECT_EQ(encode_result(evaluator->evaluate({5e-4})), encode_result(evaluator->evaluate({5e-4})));
+  EXPECT_EQ(bytes_of(evaluate(*evaluator, {5e-4})), bytes_of(evaluate(*evaluator, {5e-4})));
 }
 
 constexpr const char* kTwoLoads = R"(
@@ -205,7 +212,7 @@ set = { "link.rod.mass" = 10.0 }
 TEST_F(Evaluation, Answers_every_load_case_under_its_name) {
   const auto evaluator = make(kTwoLoads);
   ASSERT_TRUE(evaluator) << said();
-  const CaseResult result = evaluator->evaluate({1e5});
+  const CaseResult result = evaluate(*evaluator, {1e5});
   ASSERT_EQ(result.status, Cause::ok) << result.message;
   const double light = number(*evaluator, result, "light_gap_max");
   const double heavy = number(*evaluator, result, "heavy_gap_max");
@@ -226,7 +233,7 @@ TEST_F(Evaluation, Answers_every_load_case_under_its_name) {
 TEST_F(Evaluation, Keeps_traces_that_end_with_the_last_response) {
   const auto evaluator = make(kTwoLoads);
   ASSERT_TRUE(evaluator) << said();
-  const CaseResult result = evaluator->evaluate({1e5});
+  const CaseResult result = evaluate(*evaluator, {1e5});
   ASSERT_EQ(result.traces.size(), 2u);
   EXPECT_EQ(result.traces[1].load_case, "heavy");
   const std::vector<Trace>& traces = result.traces[1].traces;
@@ -241,7 +248,7 @@ TEST_F(Evaluation, Keeps_traces_that_end_with_the_last_response) {
 TEST_F(Evaluation, Names_the_load_case_that_failed_and_keeps_what_is_known) {
   const auto evaluator = make(kTwoLoads);
   ASSERT_TRUE(evaluator) << said();
-  const CaseResult result = evaluator->evaluate({1e12});
+  const CaseResult result = evaluate(*evaluator, {1e12});
   EXPECT_NE(result.status, Cause::ok);
   EXPECT_THAT(result.message, HasSubstr("load case 'light'"));
   EXPECT_TRUE(std::isnan(number(*evaluator, result, "light_error_max_closure_C_force_x")));
@@ -255,7 +262,7 @@ TEST_F(Evaluation, Ends_at_its_time_limit) {
       "[[vary]]\nparameter = \"simulation.end_time\"\nvalues = [1e5]\n");
   ASSERT_TRUE(evaluator) << said();
   evaluator->set_timeout(0.05);
-  const CaseResult result = evaluator->evaluate({1e5});
+  const CaseResult result = evaluate(*evaluator, {1e5});
   EXPECT_EQ(result.status, Cause::timeout) << result.message;
 }
 
@@ -286,11 +293,106 @@ TEST_F(Evaluation, Reports_unknown_signals_at_their_place_with_the_nearest) {
   EXPECT_THAT(said(), HasSubstr("closure.C.force"));
 }
 
+// Stiffnesses, steps and models that share step loops and that do not, in two load cases, one
+// diverging, two invalid.
+constexpr const char* kMixed = R"(
+reference = { set = { "closure.C.model" = "cut" } }
+[[vary]]
+parameter = "closure.C.sde.stiffness"
+values = [1e5]
+[[vary]]
+parameter = "closure.C.model"
+values = ["sde"]
+[[vary]]
+parameter = "simulation.step"
+values = [1e-3]
+[[vary]]
+parameter = "link.rod.mass"
+values = [1.0]
+[[match]]
+signal = "closure.C.force"
+tolerance = 0.01
+[[response]]
+name = "speed"
+signal = "joint.A.v"
+reduce = "last"
+[[trace]]
+signals = ["joint.A.v"]
+[[load_case]]
+name = "as_is"
+[[load_case]]
+name = "light_crank"
+set = { "link.crank.mass" = 0.5 }
+)";
+
+std::vector<std::vector<Value>> mixed_points() {
+  const Value sde = std::string("sde");
+  const Value cut = std::string("cut");
+  return {{1e5, sde, 1e-3, 1.0},  {2e5, sde, 1e-3, 1.0},  {1e12, sde, 1e-3, 1.0},
+          {1e5, cut, 1e-3, 1.0},  {3e5, sde, 5e-4, 1.0},  {1e5, sde, 1e-3, -1.0},
+          {4e5, sde, 1e-3, 2.0},  {1e5, cut, 1e-3, 3.0},  {5e5, sde, 1e-3, 1.0},
+          {1e5, sde, 1e-17, 1.0}, {6e5, sde, 1e-3, 1.0},  {7e5, sde, 5e-4, 1.0},
+          {8e5, sde, 1e-3, 1.0},  {9e5, sde, 1e-3, 1.0},  {1e6, sde, 1e-3, 1.0},
+          {1e4, sde, 1e-3, 1.0},  {2e4, sde, 1e-3, 10.0}, {3e4, sde, 1e-3, 0.1}};
+}
+
+TEST_F(Evaluation, Of_a_point_is_the_same_to_the_last_bit_alone_and_beside_others) {
+  const auto evaluator = make(kMixed);
+  ASSERT_TRUE(evaluator) << said();
+  const std::vector<std::vector<Value>> points = mixed_points();
+  const std::vector<CaseResult> together = evaluator->evaluate(points);
+  ASSERT_EQ(together.size(), points.size());
+  std::map<Cause, int> causes;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    ++causes[together[i].status];
+    EXPECT_EQ(bytes_of(together[i]), bytes_of(evaluate(*evaluator, points[i])))
+        << i << together[i].message;
+  }
+  EXPECT_EQ(causes[Cause::ok], 15);
+  EXPECT_EQ(causes[Cause::invalid_point], 2);
+  EXPECT_EQ(together[5].status, Cause::invalid_point);
+  EXPECT_EQ(together[9].status, Cause::invalid_point) << together[9].message;
+}
+
+// 1e18 steps are more than there is memory for: thrown, and tried three times.
+TEST_F(Evaluation, That_throws_is_tried_again_and_disturbs_no_other) {
+  const auto evaluator = make(
+      "[[vary]]\nparameter = \"simulation.end_time\"\nvalues = [0.1]\n"
+      "[[vary]]\nparameter = \"link.rod.mass\"\nvalues = [1.0]\n");
+  ASSERT_TRUE(evaluator) << said();
+  const std::vector<std::vector<Value>> points = {{0.1, 1.0}, {1e15, 1.0}, {0.1, 2.0}};
+  const std::vector<CaseResult> results = evaluator->evaluate(points);
+  EXPECT_EQ(results[1].status, Cause::exception) << results[1].message;
+  EXPECT_EQ(results[1].attempts, 3u);
+  for (const std::size_t i : {0, 2}) {
+    EXPECT_EQ(results[i].status, Cause::ok) << results[i].message;
+    EXPECT_EQ(results[i].attempts, 1u);
+    EXPECT_EQ(bytes_of(results[i]), bytes_of(evaluate(*evaluator, points[i])));
+  }
+}
+
+TEST_F(Evaluation, Side_by_side_ends_at_one_time_limit_and_spares_those_that_are_shorter) {
+  const auto evaluator = make(
+      "base = { set = { gravity = [0.0, 0.0, 0.0] } }\n"
+      "[[vary]]\nparameter = \"simulation.end_time\"\nvalues = [0.1]\n"
+      "[[vary]]\nparameter = \"link.rod.mass\"\nvalues = [1.0]\n");
+  ASSERT_TRUE(evaluator) << said();
+  evaluator->set_timeout(0.3);
+  const std::vector<std::vector<Value>> points = {{1e5, 1.0}, {0.1, 1.0}, {1e5, 2.0}, {0.1, 2.0}};
+  const std::vector<CaseResult> results = evaluator->evaluate(points);
+  EXPECT_EQ(results[0].status, Cause::timeout);
+  EXPECT_EQ(results[2].status, Cause::timeout);
+  EXPECT_EQ(results[1].status, Cause::ok) << results[1].message;
+  EXPECT_EQ(results[3].status, Cause::ok) << results[3].message;
+}
+
 TEST(CaseBytes, Come_back_as_they_went) {
-  const Point point{7, {1.5, std::string("cut"), -0.0}};
-  const Point read = decode_point(encode_point(point));
-  EXPECT_EQ(read.id, 7u);
-  EXPECT_EQ(read.values, point.values);
+  const std::vector<Point> points = {{7, {1.5, std::string("cut"), -0.0}}, {9, {}}};
+  const std::vector<Point> read = decode_points(encode_points(points));
+  ASSERT_EQ(read.size(), 2u);
+  EXPECT_EQ(read[0].id, 7u);
+  EXPECT_EQ(read[0].values, points[0].values);
+  EXPECT_EQ(read[1].id, 9u);
   CaseResult result;
   result.status = Cause::diverged;
   result.message = "diverged at t = 1 s";
@@ -298,10 +400,12 @@ TEST(CaseBytes, Come_back_as_they_went) {
   result.traces = {{"fast", {{"time", "s", {0.0, 1.0}}, {"joint.A.q", "rad", {2.0, 3.0}}}}};
   result.attempts = 2;
   result.host = "n1";
-  const std::string bytes = encode_result(result);
-  EXPECT_EQ(encode_result(decode_result(bytes)), bytes);
-  EXPECT_EQ(decode_result(bytes).traces[0].traces[1].values[1], 3.0);
-  EXPECT_THROW(decode_result(bytes.substr(0, bytes.size() - 3)), std::out_of_range);
+  const std::vector<CaseResult> results = {result, CaseResult()};
+  const std::string bytes = encode_results(results);
+  EXPECT_EQ(encode_results(decode_results(bytes)), bytes);
+  EXPECT_EQ(decode_results(bytes)[0].traces[0].traces[1].values[1], 3.0);
+  EXPECT_EQ(decode_results(bytes)[1].status, Cause::ok);
+  EXPECT_THROW(decode_results(bytes.substr(0, bytes.size() - 3)), std::out_of_range);
 }
 
 }  // namespace

@@ -1,0 +1,51 @@
+#include "study/evaluate/form_packs.h"
+
+#include <algorithm>
+#include <map>
+
+namespace linkstudy {
+namespace {
+
+// Values that decide the structure or the steps.
+std::vector<Value> deciding_values(const Point& point, const std::vector<Parameter>& parameters) {
+  std::vector<Value> values;
+  for (std::size_t i = 0; i < parameters.size() && i < point.values.size(); ++i) {
+    const bool is_word = std::holds_alternative<std::string>(point.values[i]);
+    if (is_word || parameters[i].path.starts_with("simulation.")) values.push_back(point.values[i]);
+  }
+  return values;
+}
+
+// In the order of their first points.
+std::vector<std::vector<Point>> sort_by_kind(const std::vector<Point>& points,
+                                             const std::vector<Parameter>& parameters) {
+  std::vector<std::vector<Point>> kinds;
+  std::map<std::vector<Value>, std::size_t> known;
+  for (const Point& point : points) {
+    const auto [at, is_new] = known.emplace(deciding_values(point, parameters), kinds.size());
+    if (is_new) kinds.emplace_back();
+    kinds[at->second].push_back(point);
+  }
+  return kinds;
+}
+
+}  // namespace
+
+std::vector<std::vector<Point>> form_packs(const std::vector<Point>& points,
+                                           const std::vector<Parameter>& parameters, int lanes,
+                                           int ranks) {
+  const std::size_t of_rank = (points.size() + static_cast<std::size_t>(ranks) - 1) /
+                              static_cast<std::size_t>(std::max(1, ranks));
+  const std::size_t width = std::clamp(of_rank, std::size_t{1}, static_cast<std::size_t>(lanes));
+  std::vector<std::vector<Point>> packs;
+  for (const std::vector<Point>& kind : sort_by_kind(points, parameters)) {
+    for (std::size_t i = 0; i < kind.size(); i += width) {
+      const auto begin = kind.begin() + static_cast<std::ptrdiff_t>(i);
+      packs.emplace_back(begin,
+                         begin + static_cast<std::ptrdiff_t>(std::min(width, kind.size() - i)));
+    }
+  }
+  return packs;
+}
+
+}  // namespace linkstudy

@@ -1,0 +1,82 @@
+#include "study/evaluate/prepared_case.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace linkstudy {
+namespace {
+
+bool same_channel(const Channel& a, const Channel& b) {
+  return a.quantity == b.quantity && a.index == b.index && a.component == b.component;
+}
+
+bool same_channels(const std::vector<Channel>& a, const std::vector<Channel>& b) {
+  return std::ranges::equal(a, b, same_channel);
+}
+
+bool same_sampling(const Sampling& a, const Sampling& b) {
+  return a.begin == b.begin && a.end == b.end && a.stride == b.stride;
+}
+
+bool same_form(const Observers<double>& a, const Observers<double>& b) {
+  const auto same_series = [](const auto& x, const auto& y) {
+    return same_channels(x.channels, y.channels) && same_sampling(x.sampling, y.sampling);
+  };
+  const auto same_comparison = [&](const auto& x, const auto& y) {
+    return same_series(x, y) && x.sign == y.sign;
+  };
+  const auto same_reduction = [](const auto& x, const auto& y) {
+    return same_channel(x.channel, y.channel) && same_sampling(x.sampling, y.sampling);
+  };
+  return std::ranges::equal(a.series, b.series, same_series) &&
+         std::ranges::equal(a.comparisons, b.comparisons, same_comparison) &&
+         std::ranges::equal(a.reductions, b.reductions, same_reduction);
+}
+
+long output_stride(const SimulationOptions& options, const StepGrid& grid) {
+  return sample_output(grid, options.output_interval).stride;
+}
+
+bool same_steps(const SimulationOptions& a, const SimulationOptions& b) {
+  const StepGrid grid_a = make_step_grid(a);
+  const StepGrid grid_b = make_step_grid(b);
+  return grid_a.count == grid_b.count && grid_a.h == grid_b.h && a.integrator == b.integrator &&
+         a.drift_limit == b.drift_limit && output_stride(a, grid_a) == output_stride(b, grid_b);
+}
+
+bool can_share(const PreparedCase& a, const PreparedCase& b) {
+  const Model& model_a = a.preparation.model;
+  const Model& model_b = b.preparation.model;
+  return same_steps(a.options, b.options) && model_a.start.t == model_b.start.t &&
+         same_structure(model_a.mechanism, model_b.mechanism) &&
+         same_form(a.metrics.observers(), b.metrics.observers());
+}
+
+}  // namespace
+
+std::vector<CaseGroup> group_cases(const std::vector<std::unique_ptr<PreparedCase>>& cases) {
+  std::vector<CaseGroup> groups;
+  for (const auto& item : cases) {
+    const auto fits = [&](const CaseGroup& group) { return can_share(*group.front(), *item); };
+    const auto found = std::ranges::find_if(groups, fits);
+    if (found == groups.end()) {
+      groups.push_back({item.get()});
+    } else {
+      found->push_back(item.get());
+    }
+  }
+  return groups;
+}
+
+void run_cases(const CaseGroup& group, const RunLimits& limits) {
+  std::vector<BatchCase> cases;
+  for (PreparedCase* item : group) {
+    const Model& model = item->preparation.model;
+    cases.push_back({&model.parameters, &model.start, &item->metrics.observers(), {}});
+  }
+  const PreparedCase& first = *group.front();
+  simulate_batch(first.preparation.model.mechanism, first.options, cases, limits);
+  for (std::size_t i = 0; i < group.size(); ++i) group[i]->outcome = std::move(cases[i].outcome);
+}
+
+}  // namespace linkstudy
