@@ -233,7 +233,8 @@ std::vector<std::unique_ptr<PreparedCase>> Evaluator::prepare_cases(std::size_t 
     if (!one.is_running()) continue;
     const Stopwatch watch(one.spent_s);
     std::unique_ptr<PreparedCase> prepared;
-    guard(one.result, [&] { prepared = prepare_case(load_case, i, one); });
+    const RunMetrics* like = cases.empty() ? nullptr : &cases.back()->metrics;
+    guard(one.result, [&] { prepared = prepare_case(load_case, i, one, like); });
     if (prepared) cases.push_back(std::move(prepared));
   }
   std::erase_if(cases, [&](const auto& item) { return end_if_late(attempts[item->point]); });
@@ -249,7 +250,7 @@ bool Evaluator::end_if_late(Attempt& attempt) const {
 
 // Nothing when it ended here.
 std::unique_ptr<PreparedCase> Evaluator::prepare_case(std::size_t load_case, std::size_t point,
-                                                      Attempt& attempt) {
+                                                      Attempt& attempt, const RunMetrics* like) {
   const ReferenceRecord* record = reference(load_case, nullptr);
   const ModelInput input =
       require_model(*input_.model, overrides_of(load_cases_[load_case], *attempt.values));
@@ -259,7 +260,7 @@ std::unique_ptr<PreparedCase> Evaluator::prepare_case(std::size_t load_case, std
     return nullptr;
   }
   const StudySignals signals = require_signals(input_, preparation.model.mechanism);
-  RunMetrics metrics(input_, signals, input.options, record);
+  RunMetrics metrics(input_, signals, input.options, record, like);
   return std::unique_ptr<PreparedCase>(new PreparedCase{
       point, input.options, std::move(preparation), std::move(metrics), SimulationOutcome()});
 }

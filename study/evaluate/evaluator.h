@@ -60,7 +60,7 @@ class Evaluator {
   std::vector<std::unique_ptr<PreparedCase>> prepare_cases(std::size_t load_case,
                                                            std::span<Attempt> attempts);
   std::unique_ptr<PreparedCase> prepare_case(std::size_t load_case, std::size_t point,
-                                             Attempt& attempt);
+                                             Attempt& attempt, const RunMetrics* like);
   bool end_if_late(Attempt& attempt) const;
   void run_group(std::size_t load_case, const CaseGroup& group, std::span<Attempt> attempts);
   void store(std::size_t load_case, const PreparedCase& item, Attempt& attempt);

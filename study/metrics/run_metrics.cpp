@@ -42,12 +42,13 @@ Sampling sample_output(const StepGrid& grid, double output_interval) {
 }
 
 RunMetrics::RunMetrics(const StudyInput& input, const StudySignals& signals,
-                       const SimulationOptions& options, const ReferenceRecord* reference)
+                       const SimulationOptions& options, const ReferenceRecord* reference,
+                       const RunMetrics* like)
     : grid_(make_step_grid(options)) {
-  for (std::size_t i = 0; i < input.match.size(); ++i) {
-    matches_.emplace_back(input.match[i], signals.match[i], grid_, reference->match[i],
-                          reference->grid);
-    observers_.comparisons.push_back(matches_.back().make_comparison());
+  const bool has_same = like != nullptr && like->compares_alike(signals, grid_, reference);
+  compared_ = has_same ? like->compared_ : compare(input, signals, grid_, reference);
+  for (const MatchError& match : compared_->matches) {
+    observers_.comparisons.push_back(match.make_comparison());
   }
   add_gaps(signals);
   add_responses(input, signals);
@@ -60,13 +61,41 @@ RunMetrics::RunMetrics(const StudyInput& input, const StudySignals& signals,
   observers_.series.push_back(std::move(series));
 }
 
+std::shared_ptr<const RunMetrics::Compared> RunMetrics::compare(const StudyInput& input,
+                                                                const StudySignals& signals,
+                                                                const StepGrid& grid,
+                                                                const ReferenceRecord* reference) {
+  Compared compared{grid, reference, signals.match, {}, {}};
+  for (std::size_t i = 0; i < input.match.size(); ++i) {
+    compared.matches.emplace_back(input.match[i], signals.match[i], grid, reference->match[i],
+                                  reference->grid);
+  }
+  if (!signals.gaps.empty()) {
+    compared.zeros.assign(static_cast<std::size_t>(grid.count + 1) * 3, 0.0);
+  }
+  return std::make_shared<const Compared>(std::move(compared));
+}
+
+bool RunMetrics::compares_alike(const StudySignals& signals, const StepGrid& grid,
+                                const ReferenceRecord* reference) const {
+  const auto same_channel = [](const Channel& a, const Channel& b) {
+    return a.name == b.name && a.index == b.index && a.component == b.component;
+  };
+  const auto same_channels = [&](const auto& a, const auto& b) {
+    return std::ranges::equal(a, b, same_channel);
+  };
+  const Compared& own = *compared_;
+  return own.grid.count == grid.count && own.grid.h == grid.h && own.reference == reference &&
+         own.zeros.empty() == signals.gaps.empty() &&
+         std::ranges::equal(own.channels, signals.match, same_channels);
+}
+
 void RunMetrics::add_gaps(const StudySignals& signals) {
-  if (!signals.gaps.empty()) zeros_.assign(static_cast<std::size_t>(grid_.count + 1) * 3, 0.0);
   for (const std::vector<Channel>& gap : signals.gaps) {
     Comparison<double> comparison;
     comparison.channels = gap;
     comparison.sampling = {0, grid_.count, 1};
-    comparison.reference = zeros_.data();
+    comparison.reference = compared_->zeros.data();
     comparison.sign.assign(gap.size(), 1.0);
     observers_.comparisons.push_back(std::move(comparison));
   }
@@ -88,7 +117,7 @@ void RunMetrics::add_responses(const StudyInput& input, const StudySignals& sign
 
 double RunMetrics::find_gap() const {
   double gap = 0.0;
-  for (std::size_t i = matches_.size(); i < observers_.comparisons.size(); ++i) {
+  for (std::size_t i = compared_->matches.size(); i < observers_.comparisons.size(); ++i) {
     gap = std::max(gap, observers_.comparisons[i].max_vector_error);
   }
   return gap;
@@ -98,8 +127,8 @@ std::vector<double> RunMetrics::reduce(const SimulationOutcome& outcome,
                                        const Spectrum& spectrum) const {
   const bool is_ok = outcome.cause == Cause::ok;
   std::vector<double> numbers;
-  for (std::size_t i = 0; i < matches_.size(); ++i) {
-    const std::vector<double> errors = matches_[i].reduce(observers_.comparisons[i]);
+  for (std::size_t i = 0; i < compared_->matches.size(); ++i) {
+    const std::vector<double> errors = compared_->matches[i].reduce(observers_.comparisons[i]);
     numbers.insert(numbers.end(), errors.begin(), errors.end());
   }
   for (std::size_t i = 0; i < reductions_.size(); ++i) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deque>
+#include <memory>
 #include <vector>
 
 #include "core/dynamics/spectrum.h"
@@ -12,9 +13,10 @@ namespace linkstudy {
 
 class RunMetrics {
  public:
-  // `reference` may be null when nothing is matched. Throws InvalidPoint.
+  // `reference` may be null when nothing is matched. What a run is compared with is taken from
+  // `like` where that has the same: it is megabytes. Throws InvalidPoint.
   RunMetrics(const StudyInput& input, const StudySignals& signals, const SimulationOptions& options,
-             const ReferenceRecord* reference);
+             const ReferenceRecord* reference, const RunMetrics* like = nullptr);
 
   Observers<double>& observers() { return observers_; }
   const Observers<double>& observers() const { return observers_; }
@@ -27,14 +29,27 @@ class RunMetrics {
   std::vector<Trace> traces() const;
 
  private:
+  // What a run is compared with, all of it constant.
+  struct Compared {
+    StepGrid grid;
+    const ReferenceRecord* reference;
+    std::vector<std::vector<Channel>> channels;  // by match
+    std::deque<MatchError> matches;
+    std::vector<double> zeros;  // what gaps are compared with
+  };
+
+  static std::shared_ptr<const Compared> compare(const StudyInput& input,
+                                                 const StudySignals& signals, const StepGrid& grid,
+                                                 const ReferenceRecord* reference);
+  bool compares_alike(const StudySignals& signals, const StepGrid& grid,
+                      const ReferenceRecord* reference) const;
   void add_gaps(const StudySignals& signals);
   void add_responses(const StudyInput& input, const StudySignals& signals);
   double find_gap() const;
 
   StepGrid grid_;
   std::vector<Reduction> reductions_;  // by reduced channel
-  std::deque<MatchError> matches_;
-  std::vector<double> zeros_;    // what gaps are compared with
+  std::shared_ptr<const Compared> compared_;
   Observers<double> observers_;  // comparisons: matches, then gaps
   bool has_traces_ = false;
 };
