@@ -55,6 +55,27 @@ TEST(Definite, Solutions_are_those_of_a_dense_Cholesky_factorisation) {
   EXPECT_GT(solved, 190);
 }
 
+// The closed form for a size known to the compiler, against the factor for any size.
+TEST(Definite, Three_unknowns_are_solved_and_refused_alike_by_inverse_and_by_factor) {
+  int solved = 0;
+  for (std::uint64_t seed = 0; seed < 500; ++seed) {
+    Random random(seed);
+    MatrixXd j = random.matrix(3, 4, 1.0);
+    j.row(2) += 0.3 * static_cast<double>(seed % 5) * j.row(0);
+    RowMajor a = j * j.transpose(), l = a;
+    VectorXd b = random.vector(3, 1.0), x = b, unused(3);
+    const bool clear = factorize_definite(Index<3>(), kMargin, a.data(), unused.data());
+    ASSERT_EQ(clear, factorize_definite(3, kMargin, l.data(), unused.data())) << "seed " << seed;
+    if (!clear) continue;
+    ++solved;
+    solve_definite(Index<3>(), a.data(), unused.data(), x.data());
+    solve_definite(3, l.data(), unused.data(), b.data());
+    const VectorXd s = (j * j.transpose()).jacobiSvd().singularValues();
+    ASSERT_TRUE(near_relative(x, b, 1e-14 * s[0] / s[2])) << "seed " << seed;
+  }
+  EXPECT_GT(solved, 450);
+}
+
 TEST(Definite, A_small_pivot_refuses_the_matrix_and_a_large_one_does_not) {
   for (const double pivot : {0.5e-6, 2e-6}) {
     MatrixXd a = Eigen::Vector3d(1.0, pivot, 0.1).asDiagonal();
