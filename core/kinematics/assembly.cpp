@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <random>
 
 #include "core/kinematics/closure_jacobian.h"
@@ -291,6 +292,18 @@ ClosureEquations compute_closure_equations(const Mechanism& m, const Parameters<
     e.residual[static_cast<Eigen::Index>(r)] = w.cut_rows[r].d;
   }
   return e;
+}
+
+double close_from(const Model& closed, State<double>& s) {
+  const Mechanism& m = closed.mechanism;
+  const auto rows = [&](const State<double>& x) {
+    return compute_closure_equations(m, closed.parameters, x);
+  };
+  std::vector<int> all(static_cast<std::size_t>(m.nv));
+  std::iota(all.begin(), all.end(), 0);
+  const Closing closing = solve(m, rows, all, s);
+  s = closing.state;
+  return closing.residual;
 }
 
 AssemblyReport assemble_start(const Model& closed, State<double>& start) {

@@ -50,6 +50,10 @@ Model compile_closed(const Linkage& linkage);
 // Moves `start` (positions and velocities) of the compiled closed linkage.
 AssemblyReport assemble_start(const Model& closed, State<double>& start);
 
+// Moves all joints from `s` to a closed pose near by, without restarts, held joints too; returns
+// the norm of r that is left.
+double close_from(const Model& closed, State<double>& s);
+
 // Residual r (nc) and Jacobian (nc, nv) of the cut rows at (q, v).
 struct ClosureEquations {
   Eigen::VectorXd residual;

@@ -22,4 +22,11 @@ NumericalRank numerical_rank(const Eigen::MatrixXd& a, double relative_tolerance
   return r;
 }
 
+Eigen::MatrixXd null_space(const Eigen::MatrixXd& a, double relative_tolerance) {
+  if (a.rows() == 0) return Eigen::MatrixXd::Identity(a.cols(), a.cols());
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(a, Eigen::ComputeFullV);
+  const int rank = numerical_rank(a, relative_tolerance).rank;
+  return svd.matrixV().rightCols(a.cols() - rank);
+}
+
 }  // namespace linkstudy

@@ -13,4 +13,7 @@ struct NumericalRank {
 
 NumericalRank numerical_rank(const Eigen::MatrixXd& a, double relative_tolerance);
 
+// Orthonormal columns that span the null space of a by the same rank.
+Eigen::MatrixXd null_space(const Eigen::MatrixXd& a, double relative_tolerance);
+
 }  // namespace linkstudy

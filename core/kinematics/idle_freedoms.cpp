@@ -1,0 +1,145 @@
+#include "core/kinematics/idle_freedoms.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/SVD>
+#include <algorithm>
+
+#include "core/kinematics/closure_jacobian.h"
+#include "core/numerics/rank.h"
+
+namespace linkstudy {
+namespace {
+
+using Eigen::MatrixXd;
+
+// Singular values of the motions of resting links, relative to unit motions of the null space.
+constexpr double kRests = 1e-7;
+
+struct Connection {
+  int first, second;  // bodies
+  std::string name;
+};
+
+std::vector<Connection> connections_of(const Mechanism& m) {
+  std::vector<Connection> all;
+  for (int b = 1; b < m.body_count(); ++b) {
+    const auto i = static_cast<std::size_t>(b);
+    all.push_back({m.bodies[i].parent, b, "joint." + m.joint_names[i]});
+  }
+  for (std::size_t i = 0; i < m.closures.size(); ++i) {
+    all.push_back({m.closures[i].first, m.closures[i].second, "closure." + m.closure_names[i]});
+  }
+  return all;
+}
+
+// Twist of every body by every scaled velocity, about the ground's origin: rows 6 b .. 6 b + 5.
+MatrixXd twists_of(const Model& closed, const ClosureScale& scale, const State<double>& pose) {
+  const Mechanism& m = closed.mechanism;
+  Workspace<double> w = make_workspace<double>(m);
+  update_kinematics(m, closed.parameters, pose.q.data(), pose.v.data(), w);
+  MatrixXd s = MatrixXd::Zero(6 * m.body_count(), m.nv);
+  for (int b = 1; b < m.body_count(); ++b) {
+    const Body& body = m.bodies[static_cast<std::size_t>(b)];
+    s.middleRows<6>(6 * b) = s.middleRows<6>(6 * body.parent);
+    for (int k = body.v_begin; k < body.v_begin + body.v_count; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      const Vec3<double>& p = w.bodies[static_cast<std::size_t>(b)].p;
+      const Eigen::Vector3d e(w.axes[i].x, w.axes[i].y, w.axes[i].z);
+      const Velocity& v = m.velocities[i];
+      const double pitch = closed.parameters.pitch[static_cast<std::size_t>(v.stage)];
+      if (v.kind == VelocityKind::translation) {
+        s.block<3, 1>(6 * b + 3, k) = e * scale.velocity[k] / scale.extent;
+        continue;
+      }
+      s.block<3, 1>(6 * b, k) = e;
+      Eigen::Vector3d shift = Eigen::Vector3d(p.x, p.y, p.z).cross(e);
+      if (v.kind == VelocityKind::screw) shift += pitch * e;
+      s.block<3, 1>(6 * b + 3, k) = shift / scale.extent;
+    }
+  }
+  return s;
+}
+
+class IdleSearch {
+ public:
+  IdleSearch(const Model& closed, const ClosureScale& scale, const State<double>& pose)
+      : mechanism_(closed.mechanism),
+        connections_(connections_of(closed.mechanism)),
+        motions_(twists_of(closed, scale, pose) *
+                 null_space(compute_scaled_closures(closed, scale, pose).jacobian,
+                            kMobilityTolerance)) {}
+
+  std::vector<IdleFreedom> run() const {
+    std::vector<IdleFreedom> found;
+    if (motions_.cols() == 0) return found;
+    std::vector<int> single(static_cast<std::size_t>(mechanism_.body_count()), 0);
+    for (int b = 1; b < mechanism_.body_count(); ++b) {
+      const int count = is_inside({b}) ? count_motions({b}) : 0;
+      single[static_cast<std::size_t>(b)] = count;
+      if (count > 0) found.push_back(describe({b}, count));
+    }
+    for (const Connection& c : connections_) {
+      const bool is_new = c.first > 0 && single[static_cast<std::size_t>(c.first)] == 0 &&
+                          single[static_cast<std::size_t>(c.second)] == 0;
+      const std::vector<int> pair = {c.first, c.second};
+      const int count = is_new && is_inside(pair) ? count_motions(pair) : 0;
+      if (count > 0) found.push_back(describe(pair, count));
+    }
+    return found;
+  }
+
+ private:
+  static bool contains(const std::vector<int>& group, int body) {
+    return std::find(group.begin(), group.end(), body) != group.end();
+  }
+
+  // Joints between the group and the rest.
+  std::vector<Connection> boundary_of(const std::vector<int>& group) const {
+    std::vector<Connection> boundary;
+    for (const Connection& c : connections_) {
+      if (contains(group, c.first) != contains(group, c.second)) boundary.push_back(c);
+    }
+    return boundary;
+  }
+
+  // Held at two joints or more, none of them on ground.
+  bool is_inside(const std::vector<int>& group) const {
+    const std::vector<Connection> boundary = boundary_of(group);
+    return boundary.size() > 1 &&
+           std::none_of(boundary.begin(), boundary.end(),
+                        [](const Connection& c) { return c.first == 0 || c.second == 0; });
+  }
+
+  // Dimension of the null motions in which the group moves as one body and all others rest.
+  int count_motions(const std::vector<int>& group) const {
+    MatrixXd rest = motions_;
+    for (const int b : group) {
+      rest.middleRows<6>(6 * b) -= motions_.middleRows<6>(6 * group.front());
+    }
+    const auto sizes = Eigen::JacobiSVD<MatrixXd>(rest).singularValues();
+    return static_cast<int>(
+        std::count_if(sizes.begin(), sizes.end(), [](double s) { return s < kRests; }));
+  }
+
+  IdleFreedom describe(const std::vector<int>& group, int count) const {
+    IdleFreedom idle;
+    idle.count = count;
+    for (const int b : group)
+      idle.links.push_back(mechanism_.link_names[static_cast<std::size_t>(b)]);
+    for (const Connection& c : boundary_of(group)) idle.joints.push_back(c.name);
+    return idle;
+  }
+
+  const Mechanism& mechanism_;
+  std::vector<Connection> connections_;
+  MatrixXd motions_;  // twists of all bodies by the null motions
+};
+
+}  // namespace
+
+std::vector<IdleFreedom> find_idle_freedoms(const Model& closed, const ClosureScale& scale,
+                                            const State<double>& pose) {
+  return IdleSearch(closed, scale, pose).run();
+}
+
+}  // namespace linkstudy
