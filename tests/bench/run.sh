@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Prints the speed of the step loop as ratios to the trace formulas, with compiler, flags and CPU.
+# Prints the speed of the step loop as ratios to the trace formulas, with compiler, flags and CPU,
+# and beside Simbody if that is installed (Debian: libsimbody-dev; nothing else wants it).
 # usage: tests/bench/run.sh [BUILD_DIRECTORY]      takes about a minute on a built tree
 set -euo pipefail
 top=$(cd "$(dirname "$0")/../.." && pwd)
@@ -9,3 +10,9 @@ cmake --build "$build" --target bench_step_loop -j 2 >/dev/null
 grep -m1 'model name' /proc/cpuinfo || true
 grep -E '^CMAKE_CXX_FLAGS_RELEASE|^CMAKE_CXX_COMPILER:' "$build/CMakeCache.txt"
 "$build/tests/bench_step_loop"
+
+# Not grep -q, which would break the pipe.
+if cmake --build "$build" --target help | grep bench_peer_simbody >/dev/null; then
+  cmake --build "$build" --target bench_peer_simbody -j 2 >/dev/null
+  "$build/tests/bench_peer_simbody"
+fi
