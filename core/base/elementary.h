@@ -1,7 +1,14 @@
-// Sine and cosine of one argument, without branches: Cody-Waite reduction by pi/2 in three parts,
-// then the minimax polynomials of the Cephes library on [-pi/4, pi/4]. Error below 1 unit in the
-// last place for |x| < 1.6e6 rad (the products n * kPi2a and n * kPi2b are exact for n < 2^20).
+// Elementary functions without branches, the same for double and for packs.
+//   sincos  Cody-Waite reduction by pi/2 in three parts, then the minimax polynomials of the Cephes
+//           library on [-pi/4, pi/4]. Error below 1 unit in the last place for |x| < 1.6e6 rad (the
+//           products n * kPi2a and n * kPi2b are exact for n < 2^20).
+//   exp     x = n ln 2 + r with ln 2 in two parts, the series of e^r to r^13, and a power of two.
+//           Error below 1 unit in the last place; 0 below -708 (no denormals), infinity above
+//           709.78, and not a number for such an argument.
 #pragma once
+
+#include <initializer_list>
+#include <limits>
 
 #include "core/base/real.h"
 
@@ -69,6 +76,41 @@ inline SinCos<Real> sincos(Real x) {
   const auto flip_sin = half || (quarter == Real(-1.0));
   const auto flip_cos = half || (quarter == Real(1.0));
   return {select(flip_sin, -sin0, sin0), select(flip_cos, -cos0, cos0)};
+}
+
+namespace detail {
+
+inline constexpr double kLn2a = 6.93147180369123816490e-01;  // 33 bits
+inline constexpr double kLn2b = 1.90821492927058770002e-10;
+
+// (e^r - 1 - r) / r^2 for |r| <= ln 2 / 2, the next term below 5e-18 of e^r.
+template <class Real>
+inline Real exponential_series(Real r) {
+  Real p(1.0 / 6227020800.0);
+  for (const double c : {479001600.0, 39916800.0, 3628800.0, 362880.0, 40320.0, 5040.0, 720.0,
+                         120.0, 24.0, 6.0, 2.0}) {
+    p = madd(p, r, Real(1.0 / c));
+  }
+  return p;
+}
+
+}  // namespace detail
+
+template <class Real>
+inline Real exp(Real x) {
+  const auto low = x < Real(-708.0);
+  const auto high = x > Real(709.78271289338397);
+  const Real inside = select(low || high, Real(0.0), x);
+  const Real round(detail::kRound);
+  const Real n = madd(inside, Real(1.44269504088896338700), round) - round;
+  const Real head = nmadd(n, Real(detail::kLn2a), inside);
+  const Real r = nmadd(n, Real(detail::kLn2b), head);
+  const Real lost = nmadd(n, Real(detail::kLn2b), head - r);  // of r, by rounding
+  const Real y = Real(1.0) + (r + madd(r * r, detail::exponential_series(r), lost));
+  // 2^1024 has no room: one factor 2 apart.
+  const Real value = (y * Real(2.0)) * power_of_two(n - Real(1.0));
+  const Real ends = select(low, Real(0.0), Real(std::numeric_limits<double>::infinity()));
+  return select(x == x, select(low || high, ends, value), x);
 }
 
 }  // namespace linkstudy

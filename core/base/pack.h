@@ -6,6 +6,7 @@
 //   Avx512, Avx2: madd, msub and nmadd round once (fused); Baseline: they round twice.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 
 #include "core/base/real.h"
@@ -156,6 +157,19 @@ inline Pack<N, Isa> abs(Pack<N, Isa> a) {
   using P = Pack<N, Isa>;
   using Bits = typename PackMask<N, Isa>::Bits;
   return P(typename P::Vector(Bits(a.v) & (Bits{} + INT64_MAX)));
+}
+
+// Adding 1.5 2^52 leaves n in the low bits of the significand.
+template <int N, class Isa>
+inline Pack<N, Isa> power_of_two(Pack<N, Isa> n) {
+  using P = Pack<N, Isa>;
+  constexpr double shift = 6755399441055744.0 + 1023.0;
+  if constexpr (N == 1) {
+    return P(std::bit_cast<double>(std::bit_cast<std::int64_t>(n.v + shift) << 52));
+  } else {
+    using Bits = typename PackMask<N, Isa>::Bits;
+    return P(typename P::Vector(Bits(n.v + shift) << 52));
+  }
 }
 
 template <int N, class Isa>

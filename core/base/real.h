@@ -6,7 +6,9 @@
 // Branches on values are written with select; branches on structure are ordinary ifs.
 #pragma once
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 namespace linkstudy {
 
@@ -51,6 +53,11 @@ inline double max(double a, double b) {
 }
 inline bool is_finite(double a) {
   return std::fabs(a) <= 1.7976931348623157e308;
+}
+
+// 2^n for a whole number n from -1022 to 1023.
+inline double power_of_two(double n) {
+  return std::bit_cast<double>((static_cast<std::int64_t>(n) + 1023) << 52);
 }
 
 // Lanes: a double is its own single lane. Bit i of lane_bits is set where lane i is true.

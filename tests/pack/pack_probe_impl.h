@@ -34,7 +34,8 @@ void apply_pack(const PackOperands* operands, PackResults* results, unsigned* ma
                          select(a < b, a, c),
                          t.sin,
                          t.cos,
-                         Real(0.1)};
+                         Real(0.1),
+                         exp(c)};
   for (int i = 0; i < Lanes; ++i) {
     double* out = &results[i].sum;
     for (const Real& x : values) *out++ = lane(x, i);

@@ -97,7 +97,7 @@ TEST(Pack, Every_lane_computes_what_a_double_does) {
   }
 }
 
-TEST(Pack, Sine_and_cosine_are_within_two_units_in_the_last_place_in_every_lane) {
+TEST(Pack, Elementary_functions_are_within_two_units_in_the_last_place_in_every_lane) {
   for (const Probe& p : probes()) {
     Random random(11);
     for (int n = 0; n < 5000; ++n) {
@@ -115,12 +115,22 @@ TEST(Pack, Sine_and_cosine_are_within_two_units_in_the_last_place_in_every_lane)
         };
         ASSERT_LE(std::fabs(out[i].sine - sine), 2.0L * ulp(sine)) << in[i].c;
         ASSERT_LE(std::fabs(out[i].cosine - cosine), 2.0L * ulp(cosine)) << in[i].c;
+        const long double exact = std::exp(static_cast<long double>(in[i].c));
+        if (in[i].c < -708.0) {
+          ASSERT_EQ(out[i].exponential, 0.0);
+        } else if (in[i].c > 709.7827) {
+          ASSERT_EQ(out[i].exponential, std::numeric_limits<double>::infinity());
+        } else {
+          const double size = static_cast<double>(exact);
+          ASSERT_LE(std::fabs(out[i].exponential - exact),
+                    2.0L * (std::nextafter(size, HUGE_VAL) - size));
+        }
       }
     }
   }
 }
 
-TEST(Pack, Sets_with_fused_instructions_agree_on_every_bit_of_the_sine) {
+TEST(Pack, Sets_with_fused_instructions_agree_on_every_bit_of_elementary_functions) {
   if (!machine_has(InstructionSet::avx512)) GTEST_SKIP() << "no AVX-512 here";
   Random random(13);
   for (int n = 0; n < 2000; ++n) {
@@ -134,9 +144,11 @@ TEST(Pack, Sets_with_fused_instructions_agree_on_every_bit_of_the_sine) {
     for (int i = 0; i < 8; ++i) {
       ASSERT_TRUE(same(wide[i].sine, narrow[i].sine));
       ASSERT_TRUE(same(wide[i].cosine, narrow[i].cosine));
+      ASSERT_TRUE(same(wide[i].exponential, narrow[i].exponential));
       PackResults one;
       apply_avx512_one(in + i, &one, &bits);
       ASSERT_TRUE(same(wide[i].sine, one.sine));
+      ASSERT_TRUE(same(wide[i].exponential, one.exponential));
     }
   }
 }

@@ -13,8 +13,7 @@ for set in Avx2 Avx512; do
     for object in $(ar t "$archive" | grep "_$lower\.cpp"); do
       seen=$((seen + 1))
       shared=$(ar p "$archive" "$object" > "${TMPDIR:-/tmp}/symbols_$$.o" &&
-               "$nm" -C "${TMPDIR:-/tmp}/symbols_$$.o" | grep -E ' [WVu] ' | grep -v "$set" |
-               grep -v 'DW\.ref\.__gxx_personality_v0' || true)
+               "$nm" -C "${TMPDIR:-/tmp}/symbols_$$.o" | grep -E ' W ' | grep -v "$set" || true)
       rm -f "${TMPDIR:-/tmp}/symbols_$$.o"
       if [[ -n $shared ]]; then
         echo "$archive($object) shares with other instruction sets:"

@@ -14,7 +14,8 @@ from pathlib import Path
 # Layers, top to bottom: a file includes only its own folder and folders above it.
 CORE = """base numerics spatial laws topology flexible model kinematics forces closures dynamics
           simulation""".split()
-STUDY = "record config specialize design metrics evaluate schedule tune converge store report cli".split()
+STUDY = """record config specialize design metrics evaluate schedule tune converge store report
+           cli""".split()
 LAYERS = [f"core/{name}" for name in CORE] + [f"study/{name}" for name in STUDY]
 
 # Headers of a library, and the only places of core/ and study/ that include them.

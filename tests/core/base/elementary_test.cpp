@@ -39,6 +39,30 @@ TEST(Elementary, Sine_and_cosine_of_random_angles_stay_within_the_documented_err
   }
 }
 
+TEST(Elementary, The_exponential_stays_within_the_documented_error_over_its_whole_range) {
+  Random random(2);
+  double worst = 0.0;
+  for (const double reach : {1e-12, 1e-3, 0.4, 1.0, 30.0, 707.9}) {
+    for (int k = 0; k < 200000; ++k) {
+      const double x = random.within(reach);
+      worst = std::max(worst, ulps(linkstudy::exp(x), std::exp(static_cast<long double>(x))));
+    }
+  }
+  EXPECT_LT(worst, 1.0);
+}
+
+TEST(Elementary, The_exponential_ends_in_zero_infinity_and_no_number) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(linkstudy::exp(0.0), 1.0);
+  const double most = 709.78271289338397;
+  EXPECT_LT(ulps(linkstudy::exp(most), std::exp(static_cast<long double>(most))), 1.0);
+  EXPECT_EQ(linkstudy::exp(709.79), infinity);
+  EXPECT_EQ(linkstudy::exp(infinity), infinity);
+  EXPECT_EQ(linkstudy::exp(-708.01), 0.0);
+  EXPECT_EQ(linkstudy::exp(-infinity), 0.0);
+  EXPECT_TRUE(std::isnan(linkstudy::exp(std::nan(""))));
+}
+
 TEST(Elementary, Sine_and_cosine_beside_multiples_of_a_quarter_turn_lose_no_digits) {
   double worst = 0.0;
   for (long k = -636000; k <= 636000; k += (std::labs(k) < 2000 ? 1 : 97)) {

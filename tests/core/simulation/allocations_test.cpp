@@ -24,6 +24,19 @@ void* operator new(std::size_t size) {
 void* operator new[](std::size_t size) {
   return counted(size);
 }
+// Packs are wider than what malloc aligns to.
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  ++allocations;
+  const auto wide = static_cast<std::size_t>(alignment);
+  if (void* p = std::aligned_alloc(wide, (size + wide - 1) / wide * wide)) return p;
+  throw std::bad_alloc();
+}
+void operator delete(void* p, std::align_val_t) noexcept {
+  std::free(p);
+}
+void operator delete(void* p, std::size_t, std::align_val_t) noexcept {
+  std::free(p);
+}
 void operator delete(void* p) noexcept {
   std::free(p);
 }
@@ -62,6 +75,21 @@ long allocations_of(const Model& model, long steps) {
   return after - before;
 }
 
+// Of a full pack on the widest instruction set.
+long allocations_of_pack(const Model& model, long steps) {
+  const SimdLevel level = choose_simd_level(nullptr, nullptr);
+  std::vector<Observers<double>> observers(static_cast<std::size_t>(level.lanes),
+                                           all_channels(model, steps));
+  std::vector<BatchCase> cases;
+  for (auto& o : observers) cases.push_back({&model.parameters, &model.start, &o, {}});
+  const SimulationOptions options = steps_of(1e-4, 1e-4 * static_cast<double>(steps), 1e-3);
+  const long before = allocations;
+  simulate_batch(model.mechanism, options, cases, {}, {level, false});
+  const long after = allocations;
+  EXPECT_EQ(cases.back().outcome.steps, steps);
+  return after - before;
+}
+
 }  // namespace
 
 TEST(Allocations, The_counter_counts) {
@@ -80,6 +108,9 @@ TEST(Allocations, Ten_times_the_steps_allocate_no_more) {
     const long few = allocations_of(model, 200);
     EXPECT_GT(few, 0) << "setting up allocates";
     EXPECT_EQ(allocations_of(model, 2000), few) << linkage.name;
+    const long few_packed = allocations_of_pack(model, 200);
+    EXPECT_GT(few_packed, 0) << "setting up allocates";
+    EXPECT_EQ(allocations_of_pack(model, 2000), few_packed) << linkage.name;
   }
 }
 
