@@ -72,6 +72,32 @@ std::string warning_text(const Preparation& preparation) {
   return text;
 }
 
+namespace {
+
+// A ledger this far open means steps too coarse for what happened.
+constexpr double kOpenLedger = 1e-2;
+constexpr double kRoundingOfEnergy = 1e-9;  // J, of a linkage at rest
+
+std::vector<std::string> outcome_notes(const SimulationOutcome& outcome) {
+  std::vector<std::string> notes;
+  if (outcome.greatest_rank > outcome.least_rank) {
+    notes.push_back(
+        fmt::format("the rank of the closure equations changed between {} and {}: a singular pose "
+                    "was passed, or "
+                    "the steps are coarse",
+                    outcome.least_rank, outcome.greatest_rank));
+  } else if (outcome.redundant) {
+    notes.push_back(
+        fmt::format("closure equations are redundant: their rank is {}", outcome.least_rank));
+  }
+  if (outcome.energy_residual_max > kOpenLedger * outcome.energy_scale + kRoundingOfEnergy) {
+    notes.push_back("energy does not balance within 1 %: the step is too long");
+  }
+  return notes;
+}
+
+}  // namespace
+
 std::string outcome_text(const SimulationOutcome& outcome, double wall_s) {
   std::string text =
       summary_line("status", outcome.cause == Cause::ok
@@ -82,9 +108,7 @@ std::string outcome_text(const SimulationOutcome& outcome, double wall_s) {
   text += summary_line("drift_max", fmt::format("{:.4g}", outcome.drift_max));
   text += summary_line("energy", fmt::format("residual at most {:.4g} J of {:.4g} J",
                                              outcome.energy_residual_max, outcome.energy_scale));
-  if (outcome.redundant) {
-    text += summary_line("note", "closure equations were redundant at some instant");
-  }
+  for (const std::string& note : outcome_notes(outcome)) text += summary_line("note", note);
   return text + summary_line("wall", fmt::format("{:.3g} s", wall_s));
 }
 
