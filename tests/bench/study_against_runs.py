@@ -1,5 +1,5 @@
-"""Cases per second of a study of eight against eight single runs: the same stiffnesses, one process,
-no MPI launcher. Both write what they always write.
+"""Cases per second of a study of eight against eight single runs of the same stiffnesses: one
+process each, no MPI launcher. Both write what they always write.
 
 usage: study_against_runs.py PROGRAM TOP_FOLDER
 """
