@@ -57,15 +57,37 @@ DrivenLinkage::DrivenLinkage(const Model& closed, const State<double>& pose,
                              const MobilityReport& mobility, const Drive& drive)
     : closed_(&closed), scale_(find_closure_scale(closed, pose)), drive_(drive) {
   unit_ = scale_.velocity[drive.velocity];
-  for (int k = 0; k < closed.mechanism.nv; ++k) {
-    const bool is_held = std::find(closed.held.begin(), closed.held.end(), k) != closed.held.end();
-    if (k != drive.velocity && !is_held) dependent_.push_back(k);
+  std::vector<const State<double>*> poses = {&pose};
+  for (const State<double>& s : mobility.neighbours) poses.push_back(&s);
+  choose_dependent(true);
+  if (find_rank(poses) || closed.held.empty()) return;
+  releases_holds_ = true;
+  choose_dependent(false);
+  find_rank(poses);
+}
+
+void DrivenLinkage::choose_dependent(bool keep_holds) {
+  const std::vector<int>& held = closed_->held;
+  dependent_.clear();
+  for (int k = 0; k < closed_->mechanism.nv; ++k) {
+    const bool rests = keep_holds && std::find(held.begin(), held.end(), k) != held.end();
+    if (k != drive_.velocity && !rests) dependent_.push_back(k);
   }
-  const auto rank_at = [&](const State<double>& s) {
-    return numerical_rank(dependent_jacobian(s), kMobilityTolerance).rank;
-  };
-  rank_ = rank_at(pose);
-  for (const State<double>& s : mobility.neighbours) rank_ = std::max(rank_, rank_at(s));
+}
+
+bool DrivenLinkage::find_rank(const std::vector<const State<double>*>& poses) {
+  std::vector<int> with_drive = dependent_;
+  with_drive.push_back(drive_.velocity);
+  bool can_move = false;
+  rank_ = -1;
+  for (const State<double>* s : poses) {
+    const MatrixXd j = compute_scaled_closures(*closed_, scale_, *s).jacobian;
+    const int rank = numerical_rank(take_columns(j, dependent_), kMobilityTolerance).rank;
+    if (rank <= rank_) continue;
+    rank_ = rank;
+    can_move = numerical_rank(take_columns(j, with_drive), kMobilityTolerance).rank == rank;
+  }
+  return can_move;
 }
 
 MatrixXd DrivenLinkage::dependent_jacobian(const State<double>& s) const {

@@ -8,7 +8,8 @@
 //   accelerations  M c = -bias(t),         c = d2y/dtheta2
 //   q_dot = t theta_dot,  q_ddot = c theta_dot^2 + t theta_ddot
 // M may have redundant rows; where it leaves freedoms open (idle ones, several drives) they take
-// the solution of least norm. Joints with hold = true rest, the driven one excepted.
+// the solution of least norm. Joints with hold = true rest, the driven one excepted, unless the
+// drive could not move then.
 // Transmission quality: the smallest singular value of M that is not always zero over the largest.
 // Zero: a dependent joint can move while the drive rests.
 #pragma once
@@ -55,6 +56,8 @@ class DrivenLinkage {
   const ClosureScale& scale() const { return scale_; }
   // Of M where it is largest: coordinates that the drive determines.
   int rank() const { return rank_; }
+  // Joints with hold = true move all the same.
+  bool releases_holds() const { return releases_holds_; }
   int undetermined() const { return static_cast<int>(dependent_.size()) - rank_; }
 
   // Driven coordinate (rad or m) and theta.
@@ -78,6 +81,9 @@ class DrivenLinkage {
   std::vector<std::string> loose_joints(const State<double>& s) const;
 
  private:
+  void choose_dependent(bool keep_holds);
+  // Rank of M at the given poses where it is largest; tells whether the drive can move there.
+  bool find_rank(const std::vector<const State<double>*>& poses);
   Eigen::MatrixXd dependent_jacobian(const State<double>& s) const;
 
   const Model* closed_;
@@ -86,6 +92,7 @@ class DrivenLinkage {
   double unit_ = 1.0;
   std::vector<int> dependent_;
   int rank_ = 0;
+  bool releases_holds_ = false;
 };
 
 }  // namespace linkstudy
