@@ -64,6 +64,12 @@ const std::vector<Verb>& verbs() {
          1,
          "finds the static equilibrium and the closure forces there",
          {"set,s", "json"}},
+        {"kinematics",
+         "MODEL",
+         1,
+         1,
+         "finds mobility, redundant joints, and the motion over a driven cycle",
+         {"set,s", "drive", "from", "to", "positions", "speed", "csv", "json"}},
         {"study", "FILE", 1, 1, "runs a parameter study; starts or continues", run_options()},
         {"tune", "FILE", 1, 1, "finds the lowest value that matches the reference", tune},
         {"status", "DIR", 1, 1, "tells how far a study is, running or dead", {"json"}},
@@ -74,7 +80,7 @@ const std::vector<Verb>& verbs() {
 }
 
 // Verbs that later versions have.
-constexpr std::array kPlanned = {"kinematics", "plan", "converge", "report", "verify"};
+constexpr std::array kPlanned = {"plan", "converge", "report", "verify"};
 
 template <class Type>
 auto optional_value(std::optional<Type>& target) {
@@ -112,6 +118,28 @@ void add_run_options(const std::string& name, CommandLine& line, po::options_des
   }
 }
 
+void add_course_options(const std::string& name, CommandLine& line, po::options_description& out) {
+  if (name == "drive") {
+    out.add_options()(
+        "drive", optional_value(line.drive)->value_name("joint.NAME"),
+        "driven coordinate; default: of the first drive load, or the first on ground");
+  } else if (name == "from") {
+    out.add_options()("from", optional_value(line.from)->value_name("Q"),
+                      "first position of the drive, such as 0 or \"90 deg\"; default: the start");
+  } else if (name == "to") {
+    out.add_options()("to", optional_value(line.to)->value_name("Q"),
+                      "last position; default: a full turn on");
+  } else if (name == "positions") {
+    out.add_options()("positions", optional_value(line.positions)->value_name("N"),
+                      "number of positions, both ends included (73)");
+  } else if (name == "speed") {
+    out.add_options()("speed", optional_value(line.speed)->value_name("V"),
+                      "constant speed of the drive (1 rad/s or m/s)");
+  } else {
+    add_run_options(name, line, out);
+  }
+}
+
 void add_option(const std::string& name, CommandLine& line, po::options_description& out) {
   if (name == "output,o") {
     const bool is_file = line.verb == "export" || line.verb == "init";
@@ -133,7 +161,8 @@ void add_option(const std::string& name, CommandLine& line, po::options_descript
                       "write a batch script beside FILE as well");
   } else if (name == "csv") {
     out.add_options()("csv", optional_value(line.csv)->value_name("FILE"),
-                      "write time histories; - is standard output");
+                      line.verb == "kinematics" ? "write the positions; - is standard output"
+                                                : "write time histories; - is standard output");
   } else if (name == "signals") {
     out.add_options()("signals", optional_value(line.signals)->value_name("A,B"),
                       "channels or groups of --csv; default: all");
@@ -141,7 +170,7 @@ void add_option(const std::string& name, CommandLine& line, po::options_descript
     out.add_options()("format", po::value(&line.format)->value_name("FORM"),
                       "text, csv, md, json or latex");
   } else {
-    add_run_options(name, line, out);
+    add_course_options(name, line, out);
   }
 }
 
@@ -223,6 +252,8 @@ void check_values(const CommandLine& line) {
   };
   require(is_positive(line.timeout_s), "--timeout must be a positive number of seconds");
   require(is_positive(line.walltime_s), "--walltime must be a positive number of seconds");
+  require(!line.positions || (*line.positions >= 2 && *line.positions <= 1000000),
+          "--positions must be from 2 to 1000000");
   require(!line.batch || *line.batch > 0, "--batch must be positive");
   require(find_progress_mode(line.progress).has_value(),
           fmt::format("--progress must be auto, bar, line or none, got '{}'", line.progress));

@@ -36,6 +36,11 @@ struct CommandLine {
   std::optional<std::string> csv;
   std::optional<std::string> signals;  // a,b
   std::string format = "csv";
+  std::optional<std::string> drive;  // joint.NAME
+  std::optional<std::string> from;   // of the driven coordinate, with or without unit
+  std::optional<std::string> to;
+  std::optional<std::string> speed;
+  std::optional<int> positions;
 };
 
 // Something typed wrong: exit code 2.

@@ -5,7 +5,10 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <stdexcept>
+
+#include "study/cli/command_line.h"
 
 namespace linkstudy {
 
@@ -18,6 +21,18 @@ void print_out(std::string_view text) {
 
 std::string summary_line(std::string_view label, std::string_view value) {
   return fmt::format("{:<13}{}\n", label, value);
+}
+
+void require_writable(const std::string& path) {
+  if (path == "-") return;
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::path folder = fs::path(path).parent_path();
+  const bool is_there = folder.empty() || fs::is_directory(folder, error);
+  if (is_there && !fs::is_directory(path, error)) return;
+  throw UsageError(
+      is_there ? fmt::format("--csv {}: is a directory", path)
+               : fmt::format("--csv {}: there is no directory '{}'", path, folder.string()));
 }
 
 }  // namespace linkstudy

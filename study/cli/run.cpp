@@ -21,10 +21,11 @@ struct VerbEntry {
   int (*run)(const CommandLine&);
 };
 
-constexpr VerbEntry kVerbs[] = {
-    {"init", run_init},         {"check", run_check},     {"describe", run_describe},
-    {"simulate", run_simulate}, {"statics", run_statics}, {"study", run_study},
-    {"tune", run_tune},         {"status", run_status},   {"export", run_export}};
+constexpr VerbEntry kVerbs[] = {{"init", run_init},         {"check", run_check},
+                                {"describe", run_describe}, {"simulate", run_simulate},
+                                {"statics", run_statics},   {"kinematics", run_kinematics},
+                                {"study", run_study},       {"tune", run_tune},
+                                {"status", run_status},     {"export", run_export}};
 
 // Copies of a verb that works in one process: the first says so, and its exit code becomes that of
 // the launcher. The others leave without one, or the launcher might end the first before it speaks.

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <filesystem>
 
 #include "core/base/isa.h"
 #include "core/topology/nearest_name.h"
@@ -60,19 +59,6 @@ Observers<double> choose_series(const CommandLine& line, const ModelInput& input
       sample_output(make_step_grid(input.options), input.options.output_interval);
   observers.series.push_back({choose_channels(all, line.signals), sampling, {}});
   return observers;
-}
-
-// A file that cannot be written is found before the run.
-void require_writable(const std::string& path) {
-  if (path == "-") return;
-  namespace fs = std::filesystem;
-  std::error_code error;
-  const fs::path folder = fs::path(path).parent_path();
-  const bool is_there = folder.empty() || fs::is_directory(folder, error);
-  if (is_there && !fs::is_directory(path, error)) return;
-  throw UsageError(
-      is_there ? fmt::format("--csv {}: is a directory", path)
-               : fmt::format("--csv {}: there is no directory '{}'", path, folder.string()));
 }
 
 std::string to_csv(const Series<double>& series) {

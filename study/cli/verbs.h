@@ -10,6 +10,7 @@ int run_check(const CommandLine& line);
 int run_describe(const CommandLine& line);
 int run_simulate(const CommandLine& line);
 int run_statics(const CommandLine& line);
+int run_kinematics(const CommandLine& line);
 int run_study(const CommandLine& line);
 int run_tune(const CommandLine& line);
 int run_status(const CommandLine& line);

@@ -1,0 +1,167 @@
+// linkstudy kinematics: reports, tables and objects of the models in configs/.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/cli/program.h"
+
+namespace linkstudy::testing {
+namespace {
+
+using nlohmann::json;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+class Kinematics : public Program {
+ protected:
+  static std::string model(const std::string& name) {
+    return std::string(LINKSTUDY_SOURCE_DIR) + "/configs/mechanisms/" + name + ".toml";
+  }
+  Ended analyse(const std::string& name, const std::string& options = "") const {
+    return run("kinematics " + model(name) + " " + options);
+  }
+  json object(const std::string& name, const std::string& options = "") const {
+    return json::parse(analyse(name, options + " --json").out);
+  }
+};
+
+struct Rows {
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> values;  // NaN where missing
+  double at(std::size_t row, const std::string& name) const {
+    const auto column = std::find(names.begin(), names.end(), name) - names.begin();
+    return values.at(row).at(static_cast<std::size_t>(column));
+  }
+};
+
+Rows read_rows(const std::string& csv) {
+  Rows rows;
+  std::istringstream lines(csv);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with('#')) continue;
+    std::vector<std::string> cells;
+    std::istringstream stream(line);
+    for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
+    if (rows.names.empty()) {
+      rows.names = cells;
+      continue;
+    }
+    rows.values.emplace_back();
+    for (const std::string& cell : cells) {
+      rows.values.back().push_back(cell.empty() ? std::nan("") : std::stod(cell));
+    }
+  }
+  return rows;
+}
+
+TEST_F(Kinematics, Tells_the_mobility_of_every_model_in_configs) {
+  const std::vector<std::tuple<std::string, int, int, int>> known = {
+      {"bennett", 1, -2, 3},
+      {"rssr", 2, 2, 0},
+      {"rccc", 1, 1, 0},
+      {"slider_crank", 1, -2, 3},
+      {"stewart", 6, 6, 0},
+      {"four_bar", 1, -2, 3},
+      {"n_four_bar", 1, -5, 6},
+      {"pendulum", 1, 1, 0},
+      {"rsrrp", 1, 1, 0},
+      {"rsrrp_revolute", 1, 1, 0},
+      {"spatial_slider_crank", 1, 1, 0}};
+  for (const auto& [name, mobility, kutzbach, redundant] : known) {
+    const json j = object(name);
+    EXPECT_EQ(j["mobility"], mobility) << name;
+    EXPECT_EQ(j["kutzbach"], kutzbach) << name;
+    EXPECT_EQ(j["redundant_constraints"], redundant) << name;
+    EXPECT_EQ(j["singular_state"], redundant > 0 ? "permanent" : "none") << name;
+    EXPECT_TRUE(j["closed"]) << name;
+    EXPECT_TRUE(j["complete"]) << name;
+    for (const char* key :
+         {"redundant_joints", "idle_freedoms", "loops", "rank", "rank_gap", "singular_positions"}) {
+      EXPECT_TRUE(j.contains(key)) << name << " " << key;
+    }
+  }
+}
+
+TEST_F(Kinematics, Names_joints_and_links) {
+  EXPECT_THAT(object("bennett")["redundant_joints"],
+              ElementsAre("joint.A", "joint.B", "joint.D", "closure.C"));
+  const json idle = object("rssr")["idle_freedoms"];
+  ASSERT_EQ(idle.size(), 1u);
+  EXPECT_THAT(idle[0]["links"], ElementsAre("coupler"));
+  EXPECT_THAT(analyse("rssr").out, HasSubstr("coupler moves alone between joint.B and closure.C"));
+}
+
+TEST_F(Kinematics, Writes_positions_velocities_and_accelerations) {
+  const double crank = 0.1, rod = 0.3, w = 5.0;
+  const Ended ended = analyse("slider_crank", "--positions 25 --speed 5 --csv table.csv");
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  const Rows rows = read_rows(read_text(path("table.csv")));
+  ASSERT_EQ(rows.values.size(), 25u);
+  for (std::size_t i = 0; i < 25; ++i) {
+    const double angle = rows.at(i, "joint.A.q");
+    EXPECT_NEAR(angle, 1.0 + 2 * M_PI * static_cast<double>(i) / 24, 1e-12);
+    const double s = crank * std::sin(angle), c = crank * std::cos(angle);
+    const double root = std::sqrt(rod * rod - s * s);
+    EXPECT_NEAR(rows.at(i, "joint.P.q"), c + root, 1e-9);
+    EXPECT_NEAR(rows.at(i, "joint.P.v"), w * (-s - s * c / root), 1e-9);
+    const double second = -c - (c * c - s * s) / root - s * s * c * c / (root * root * root);
+    EXPECT_NEAR(rows.at(i, "joint.P.a"), w * w * second, 1e-9);
+    EXPECT_LT(rows.at(i, "residual"), 1e-12);
+    EXPECT_EQ(rows.at(i, "joint.A.a"), 0.0);
+  }
+}
+
+TEST_F(Kinematics, Says_where_a_driven_slider_locks) {
+  const json j = object("slider_crank", "--drive joint.P --to '500 mm'");
+  EXPECT_FALSE(j["complete"]);
+  ASSERT_EQ(j["singular_positions"].size(), 1u);
+  EXPECT_EQ(j["singular_positions"][0]["kind"], "lock");
+  EXPECT_NEAR(j["singular_positions"][0]["position"].get<double>(), 0.4, 1e-9);
+  const std::string text = analyse("slider_crank", "--drive joint.P --to 0.1").out;
+  EXPECT_THAT(text, AllOf(HasSubstr("locks: cannot be driven beyond 0.2"), HasSubstr("joint.A")));
+}
+
+TEST_F(Kinematics, Leaves_velocities_out_where_branches_cross) {
+  const Ended ended = analyse("n_four_bar", "--csv -");
+  const Rows rows = read_rows(ended.out);
+  ASSERT_EQ(rows.values.size(), 73u);
+  EXPECT_NEAR(rows.at(18, "joint.A0.q"), M_PI, 1e-12);
+  EXPECT_TRUE(std::isnan(rows.at(18, "joint.A1.v")));
+  EXPECT_NEAR(rows.at(17, "joint.A1.v"), 1.0, 1e-9);
+  EXPECT_NEAR(rows.at(54, "joint.A1.q"), rows.at(54, "joint.A0.q"), 1e-9);
+  const json positions = object("n_four_bar")["singular_positions"];
+  ASSERT_EQ(positions.size(), 2u);
+  EXPECT_EQ(positions[0]["kind"], "branch");
+}
+
+TEST_F(Kinematics, Of_a_model_that_cannot_be_assembled_says_so) {
+  const Ended ended = analyse("bennett", "--json -s 'joint.B.frame.position=[0.2502, 0, 0]'");
+  EXPECT_EQ(ended.code, 3);
+  EXPECT_FALSE(json::parse(ended.out)["closed"]);
+  EXPECT_EQ(json::parse(ended.out)["mobility"], 0);
+  EXPECT_THAT(ended.err, HasSubstr("cannot be assembled: closure.C"));
+}
+
+TEST_F(Kinematics, Refuses_wrong_options) {
+  const std::vector<std::pair<std::string, std::string>> wrong = {
+      {"--drive joint.Z", "there is no coordinate 'joint.Z'"},
+      {"--to '1 m'", "--to must be a number in rad"},
+      {"--from x", "--from must be a number in rad"},
+      {"--positions 1", "--positions must be from 2"},
+      {"--csv nowhere/x.csv", "there is no directory"},
+      {"--csv - --json", "both want standard output"}};
+  for (const auto& [options, message] : wrong) {
+    const Ended ended = analyse("bennett", options);
+    EXPECT_EQ(ended.code, 2) << options;
+    EXPECT_THAT(ended.err, HasSubstr(message)) << options;
+    EXPECT_EQ(ended.out, "") << options;
+  }
+  EXPECT_THAT(left_behind(), IsEmpty());
+}
+
+}  // namespace
+}  // namespace linkstudy::testing
