@@ -241,8 +241,10 @@ void assemble_velocities(const Model& model, const MatrixXd& jacobian, State<dou
     report.velocity_residual = rate.norm() / scale;
     return;
   }
-  Eigen::CompleteOrthogonalDecomposition<MatrixXd> j(columns_of(jacobian, free));
+  // The threshold shapes the factorization: it has to be known before.
+  Eigen::CompleteOrthogonalDecomposition<MatrixXd> j;
   j.setThreshold(kRankTolerance);
+  j.compute(columns_of(jacobian, free));
   v += scatter(j.solve(-rate), free, model.mechanism.nv);
   report.velocity_residual = (jacobian * v).norm() / scale;
 }

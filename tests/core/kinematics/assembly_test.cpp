@@ -6,8 +6,10 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "tests/mechanisms/bennett.h"
 #include "tests/mechanisms/four_bar.h"
 #include "tests/mechanisms/n_four_bar.h"
+#include "tests/mechanisms/placed_linkage.h"
 #include "tests/mechanisms/random_linkages.h"
 #include "tests/mechanisms/rsrrp.h"
 #include "tests/mechanisms/spatial_slider_crank.h"
@@ -21,6 +23,15 @@ namespace {
 std::vector<Linkage> mechanisms() {
   return {rsrrp(),       rsrrp_revolute(),       four_bar(),
           n_four_bar(2), spatial_slider_crank(), spatial_slider_crank_cut_at_universal()};
+}
+
+// Those, and overconstrained, idle and multi-loop ones.
+std::vector<Linkage> many_mechanisms() {
+  std::vector<Linkage> all = mechanisms();
+  for (const Linkage& linkage : {bennett(), rssr(), rccc(), stewart_platform()}) {
+    all.push_back(linkage);
+  }
+  return all;
 }
 
 // Norm of the closure residual and of J v by the trace formulas.
@@ -91,8 +102,8 @@ Linkage turned_body(JointType closure, double angle, const Eigen::Vector3d& axis
 
 TEST(Assembly, Wrong_starts_close_or_name_the_closure_that_does_not) {
   int closed = 0, total = 0;
-  for (const Linkage& exact : mechanisms()) {
-    for (std::uint64_t seed = 0; seed < 100; ++seed) {
+  for (const Linkage& exact : many_mechanisms()) {
+    for (std::uint64_t seed = 0; seed < 200; ++seed) {
       Linkage linkage = exact;
       shake(linkage, seed, 0.3, 1.0);
       const double given = openness(linkage, compile(linkage).start).position;

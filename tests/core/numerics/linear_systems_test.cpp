@@ -121,4 +121,17 @@ TEST(Rank, The_tolerance_decides_and_both_sides_of_the_gap_are_reported) {
   EXPECT_EQ(numerical_rank(MatrixXd(0, 3), 1e-9).rank, 0);
 }
 
+TEST(Rank, The_null_space_is_orthonormal_and_mapped_to_zero) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    Random random(seed);
+    const int rank = 1 + random.below(5);
+    const MatrixXd a = random_rows(random, 7, 9, rank);
+    const MatrixXd n = null_space(a, 1e-9);
+    ASSERT_EQ(n.cols(), a.cols() - rank) << "seed " << seed;
+    EXPECT_LT((a * n).norm(), 1e-13 * a.norm());
+    EXPECT_LT((n.transpose() * n - MatrixXd::Identity(n.cols(), n.cols())).norm(), 1e-13);
+  }
+  EXPECT_EQ(null_space(MatrixXd(0, 3), 1e-9).cols(), 3);
+}
+
 }  // namespace linkstudy::testing
