@@ -24,10 +24,10 @@ struct LaneEnd {
 
 struct LaneCase {
   const Parameters<double>* parameters;
-  const double* y;               // start: q (nq), v (nv), supplied, dissipated
-  double* final_y;               // the same at the end
-  Observers<double>* observers;  // sized; of the same form in all lanes
-  std::size_t* samples;          // (series) rows written
+  const double* y;       // start: q (nq), v (nv), supplied, dissipated
+  double* final_y;       // the same at the end
+  Observers* observers;  // sized; of the same form in all lanes
+  std::size_t* samples;  // (series) rows written
   LaneEnd* end;
 };
 

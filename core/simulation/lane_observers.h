@@ -13,7 +13,7 @@ template <class Real>
 class LaneObservers {
  public:
   LaneObservers(const LaneCase* cases, int count) : cases_(cases), count_(count) {
-    const Observers<double>& form = *cases[0].observers;
+    const Observers& form = *cases[0].observers;
     comparisons_.resize(form.comparisons.size());
     for (std::size_t i = 0; i < comparisons_.size(); ++i) {
       const std::size_t n = form.comparisons[i].max_error.size();
@@ -26,7 +26,7 @@ class LaneObservers {
 
   template <class M>
   void observe(long step, Instant<Real, M>& now) {
-    const Observers<double>& form = *cases_[0].observers;
+    const Observers& form = *cases_[0].observers;
     for (std::size_t i = 0; i < comparisons_.size(); ++i) {
       compare(form.comparisons[i], comparisons_[i], step, now);
     }
@@ -38,7 +38,7 @@ class LaneObservers {
 
   // Hands over what lane i has seen so far.
   void store(int i) const {
-    Observers<double>& out = *cases_[i].observers;
+    Observers& out = *cases_[i].observers;
     for (std::size_t k = 0; k < comparisons_.size(); ++k) {
       store(comparisons_[k], i, out.comparisons[k]);
     }
@@ -65,8 +65,7 @@ class LaneObservers {
   };
 
   template <class M>
-  static void compare(const Comparison<double>& form, LaneComparison& s, long step,
-                      Instant<Real, M>& now) {
+  static void compare(const Comparison& form, LaneComparison& s, long step, Instant<Real, M>& now) {
     if (!form.sampling.hits(step)) return;
     const std::size_t n = s.max_error.size();
     const double* reference = form.reference + s.seen * n;
@@ -83,7 +82,7 @@ class LaneObservers {
   }
 
   template <class M>
-  static void reduce(const ChannelReduction<double>& form, LaneReduction& s, long step,
+  static void reduce(const ChannelReduction& form, LaneReduction& s, long step,
                      Instant<Real, M>& now) {
     if (!form.sampling.hits(step)) return;
     const Real x = now.sample(form.channel);
@@ -96,7 +95,7 @@ class LaneObservers {
   }
 
   template <class M>
-  void record(const Series<double>& form, std::size_t index, long step, Instant<Real, M>& now) {
+  void record(const Series& form, std::size_t index, long step, Instant<Real, M>& now) {
     if (!form.sampling.hits(step)) return;
     const std::size_t n = form.channels.size();
     const std::size_t begin = rows_[index] * n;
@@ -109,7 +108,7 @@ class LaneObservers {
     ++rows_[index];
   }
 
-  static void store(const LaneComparison& s, int i, Comparison<double>& out) {
+  static void store(const LaneComparison& s, int i, Comparison& out) {
     out.seen = static_cast<long>(s.seen);
     for (std::size_t k = 0; k < s.max_error.size(); ++k) {
       out.max_error[k] = lane(s.max_error[k], i);
@@ -119,7 +118,7 @@ class LaneObservers {
     out.square_vector_error = lane(s.square_vector_error, i);
   }
 
-  static void store(const LaneReduction& s, int i, ChannelReduction<double>& out) {
+  static void store(const LaneReduction& s, int i, ChannelReduction& out) {
     out.seen = s.seen;
     out.min = lane(s.min, i);
     out.max = lane(s.max, i);

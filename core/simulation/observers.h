@@ -21,47 +21,43 @@ struct Sampling {
 };
 
 // Values of channels at the sampled steps.
-template <class Real>
 struct Series {
   std::vector<Channel> channels;
   Sampling sampling;
-  std::vector<Real> values;  // (samples, channels)
+  std::vector<double> values;  // (samples, channels)
   std::size_t rows() const { return channels.empty() ? 0 : values.size() / channels.size(); }
 };
 
 // Error of channels against a reference on the same instants, per component and for the vector.
 // Only sampled steps count; sums run in step order.
-template <class Real>
 struct Comparison {
   std::vector<Channel> channels;
   Sampling sampling;
   const double* reference = nullptr;  // (samples, channels)
   std::vector<double> sign;           // (channels) factor of the reference, +1 or -1
   long seen = 0;
-  std::vector<Real> max_error;     // (channels)
-  std::vector<Real> square_error;  // (channels) sum
-  Real max_vector_error = Real(0.0);
-  Real square_vector_error = Real(0.0);
+  std::vector<double> max_error;     // (channels)
+  std::vector<double> square_error;  // (channels) sum
+  double max_vector_error = 0.0;
+  double square_vector_error = 0.0;
 };
 
 // Extremes and moments of one channel over a window.
-template <class Real>
 struct ChannelReduction {
   Channel channel;
   Sampling sampling;
   long seen = 0;
-  Real min = Real(std::numeric_limits<double>::infinity());
-  Real max = Real(-std::numeric_limits<double>::infinity());
-  Real sum = Real(0.0);
-  Real square = Real(0.0);
-  Real last = Real(0.0);
+  double min = std::numeric_limits<double>::infinity();
+  double max = -std::numeric_limits<double>::infinity();
+  double sum = 0.0;
+  double square = 0.0;
+  double last = 0.0;
 };
 
-template <class Real>
 struct Observers {
-  std::vector<Series<Real>> series;
-  std::vector<Comparison<Real>> comparisons;
-  std::vector<ChannelReduction<Real>> reductions;
+  std::vector<Series> series;
+  std::vector<Comparison> comparisons;
+  std::vector<ChannelReduction> reductions;
 };
 
 }  // namespace linkstudy

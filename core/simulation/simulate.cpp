@@ -47,7 +47,7 @@ std::string describe_end(Cause cause, double t) {
 }
 
 // Space for everything a run will write.
-void size_observers(Observers<double>& all) {
+void size_observers(Observers& all) {
   for (auto& s : all.series) {
     s.values.assign(static_cast<std::size_t>(s.sampling.count()) * s.channels.size(), 0.0);
   }
@@ -150,7 +150,7 @@ StepGrid make_step_grid(const SimulationOptions& options) {
 
 SimulationOutcome simulate(const Mechanism& mechanism, const Parameters<double>& parameters,
                            const State<double>& start, const SimulationOptions& options,
-                           Observers<double>& observers, const RunLimits& limits) {
+                           Observers& observers, const RunLimits& limits) {
   std::vector<BatchCase> one{{&parameters, &start, &observers, {}}};
   simulate_batch(mechanism, options, one, limits);
   return std::move(one.front().outcome);

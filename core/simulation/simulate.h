@@ -45,13 +45,13 @@ struct SimulationOutcome {
 // One run on one lane of the instruction set in use.
 SimulationOutcome simulate(const Mechanism& mechanism, const Parameters<double>& parameters,
                            const State<double>& start, const SimulationOptions& options,
-                           Observers<double>& observers, const RunLimits& limits = {});
+                           Observers& observers, const RunLimits& limits = {});
 
 struct BatchCase {
   const Parameters<double>* parameters = nullptr;
-  const State<double>* start = nullptr;    // t the same in all cases
-  Observers<double>* observers = nullptr;  // of the same form in all cases
-  SimulationOutcome outcome;               // written
+  const State<double>* start = nullptr;  // t the same in all cases
+  Observers* observers = nullptr;        // of the same form in all cases
+  SimulationOutcome outcome;             // written
 };
 
 // Runs of one structure and one step grid, several at a time in the lanes of a pack, in the order

@@ -51,8 +51,8 @@ std::vector<Channel> choose_channels(const std::vector<Channel>& all,
 }
 
 // The series of --csv, with every name checked before anything runs.
-Observers<double> choose_series(const CommandLine& line, const ModelInput& input) {
-  Observers<double> observers;
+Observers choose_series(const CommandLine& line, const ModelInput& input) {
+  Observers observers;
   if (!line.csv) return observers;
   const std::vector<Channel> all = list_channels(compile(input.linkage).mechanism);
   const Sampling sampling =
@@ -61,7 +61,7 @@ Observers<double> choose_series(const CommandLine& line, const ModelInput& input
   return observers;
 }
 
-std::string to_csv(const Series<double>& series) {
+std::string to_csv(const Series& series) {
   Table table;
   for (const Channel& channel : series.channels) {
     table.columns.push_back({channel.name, channel.unit});
@@ -95,7 +95,7 @@ int report_unprepared(const CommandLine& line, const Preparation& preparation, d
 }
 
 SimulationOutcome run_model(const CommandLine& line, const Preparation& preparation,
-                            const SimulationOptions& options, Observers<double>& observers) {
+                            const SimulationOptions& options, Observers& observers) {
   const Model& model = preparation.model;
   std::atomic<double> reached{0.0};
   const RunWatch watch(*find_progress_mode(line.progress), options.end_time, reached);
@@ -108,7 +108,7 @@ SimulationOutcome run_model(const CommandLine& line, const Preparation& preparat
   return outcome;
 }
 
-void write_csv(const CommandLine& line, const Observers<double>& observers) {
+void write_csv(const CommandLine& line, const Observers& observers) {
   if (!line.csv) return;
   const std::string csv = to_csv(observers.series.front());
   if (line.csv == "-") {
@@ -125,7 +125,7 @@ int run_simulate(const CommandLine& line) {
   if (line.csv) require_writable(*line.csv);
   const ModelInput input = read_model_input(line);
   const auto begin = Clock::now();
-  Observers<double> observers = choose_series(line, input);
+  Observers observers = choose_series(line, input);
   const Preparation preparation = prepare(input.linkage, input.options);
   fmt::print(stderr, "{}", warning_text(preparation));
   print_text(line, preparation_text(line.inputs.front(), input.name, preparation, input.options));

@@ -30,10 +30,10 @@ std::vector<Channel> static_channels(const Mechanism& mechanism) {
 std::string values_text(const Preparation& preparation, SimulationOptions options) {
   const Model& model = preparation.model;
   options.end_time = options.step;
-  Observers<double> observers;
+  Observers observers;
   observers.series.push_back({static_channels(model.mechanism), {0, 0, 1}, {}});
   simulate(model.mechanism, model.parameters, model.start, options, observers);
-  const Series<double>& series = observers.series.front();
+  const Series& series = observers.series.front();
   std::string text = "\n";
   for (std::size_t i = 0; i < series.values.size(); ++i) {
     text += fmt::format("{:<28}{:>16.9g} {}\n", series.channels[i].name, series.values[i],

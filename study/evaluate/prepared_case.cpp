@@ -18,7 +18,7 @@ bool same_sampling(const Sampling& a, const Sampling& b) {
   return a.begin == b.begin && a.end == b.end && a.stride == b.stride;
 }
 
-bool same_form(const Observers<double>& a, const Observers<double>& b) {
+bool same_form(const Observers& a, const Observers& b) {
   const auto same_series = [](const auto& x, const auto& y) {
     return same_channels(x.channels, y.channels) && same_sampling(x.sampling, y.sampling);
   };

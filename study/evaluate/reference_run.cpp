@@ -38,7 +38,7 @@ std::vector<Channel> coordinate_channels(const std::vector<Channel>& all) {
   return channels;
 }
 
-std::vector<State<double>> to_states(const Series<double>& series, const Mechanism& mechanism) {
+std::vector<State<double>> to_states(const Series& series, const Mechanism& mechanism) {
   std::vector<State<double>> states;
   const std::size_t n = series.channels.size();
   for (std::size_t row = 1; row < series.rows(); ++row) {
@@ -57,13 +57,13 @@ std::vector<State<double>> to_states(const Series<double>& series, const Mechani
 }
 
 // Series: one per match, the histories, the poses.
-Observers<double> make_observers(const StudySignals& signals, const std::vector<Channel>& all,
-                                 const StepGrid& grid, double output_interval) {
-  Observers<double> observers;
+Observers make_observers(const StudySignals& signals, const std::vector<Channel>& all,
+                         const StepGrid& grid, double output_interval) {
+  Observers observers;
   for (const std::vector<Channel>& channels : signals.match) {
     observers.series.push_back({channels, {0, grid.count, 1}, {}});
   }
-  Series<double> histories{signals.trace, sample_output(grid, output_interval), {}};
+  Series histories{signals.trace, sample_output(grid, output_interval), {}};
   histories.channels.insert(histories.channels.begin(), time_channel());
   observers.series.push_back(std::move(histories));
   const long stride = std::max(1L, grid.count / kReferencePoses);
@@ -87,8 +87,7 @@ ReferenceRecord run_reference(const StudyInput& input, const LoadCaseInput& load
   }
   ReferenceRecord record;
   record.grid = make_step_grid(model.options);
-  Observers<double> observers =
-      make_observers(signals, all, record.grid, model.options.output_interval);
+  Observers observers = make_observers(signals, all, record.grid, model.options.output_interval);
   const SimulationOutcome outcome =
       simulate(mechanism, preparation.model.parameters, preparation.model.start, model.options,
                observers, RunLimits{0.0, cancelled});

@@ -32,7 +32,7 @@ double relative(double error, double scale) {
 }  // namespace
 
 MatchError::MatchError(const MatchInput& match, const std::vector<Channel>& channels,
-                       const StepGrid& grid, const Series<double>& reference,
+                       const StepGrid& grid, const Series& reference,
                        const StepGrid& reference_grid)
     : channels_(channels), sign_(match.reference_sign) {
   const CommonGrid common = require_common_grid(match, grid.h, reference_grid.h);
@@ -84,8 +84,8 @@ void MatchError::measure_reference(const MatchInput& match) {
   }
 }
 
-Comparison<double> MatchError::make_comparison() const {
-  Comparison<double> comparison;
+Comparison MatchError::make_comparison() const {
+  Comparison comparison;
   comparison.channels = channels_;
   comparison.sampling = sampling_;
   comparison.reference = reference_.data();
@@ -93,7 +93,7 @@ Comparison<double> MatchError::make_comparison() const {
   return comparison;
 }
 
-std::vector<double> MatchError::reduce(const Comparison<double>& comparison) const {
+std::vector<double> MatchError::reduce(const Comparison& comparison) const {
   std::vector<double> errors;
   for (std::size_t c = 0; c < channels_.size(); ++c) {
     errors.push_back(relative(comparison.max_error[c], max_scale_[c]));

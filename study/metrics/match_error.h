@@ -20,13 +20,13 @@ class MatchError {
  public:
   // Throws InvalidPoint when the two runs share no instants in the window.
   MatchError(const MatchInput& match, const std::vector<Channel>& channels, const StepGrid& grid,
-             const Series<double>& reference, const StepGrid& reference_grid);
+             const Series& reference, const StepGrid& reference_grid);
 
   // The comparison points into this object.
-  Comparison<double> make_comparison() const;
+  Comparison make_comparison() const;
 
   // error_max of every component, then error_rms of every component.
-  std::vector<double> reduce(const Comparison<double>& comparison) const;
+  std::vector<double> reduce(const Comparison& comparison) const;
 
  private:
   void measure_reference(const MatchInput& match);

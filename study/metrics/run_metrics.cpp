@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-double reduce_channel(const ChannelReduction<double>& r, Reduction how) {
+double reduce_channel(const ChannelReduction& r, Reduction how) {
   const auto seen = static_cast<double>(r.seen);
   if (r.seen == 0) return kNan;
   switch (how) {
@@ -54,7 +54,7 @@ RunMetrics::RunMetrics(const StudyInput& input, const StudySignals& signals,
   add_responses(input, signals);
   if (signals.trace.empty()) return;
   has_traces_ = true;
-  Series<double> series;
+  Series series;
   series.channels = signals.trace;
   series.channels.insert(series.channels.begin(), time_channel());
   series.sampling = sample_output(grid_, options.output_interval);
@@ -92,7 +92,7 @@ bool RunMetrics::compares_alike(const StudySignals& signals, const StepGrid& gri
 
 void RunMetrics::add_gaps(const StudySignals& signals) {
   for (const std::vector<Channel>& gap : signals.gaps) {
-    Comparison<double> comparison;
+    Comparison comparison;
     comparison.channels = gap;
     comparison.sampling = {0, grid_.count, 1};
     comparison.reference = compared_->zeros.data();
@@ -105,7 +105,7 @@ void RunMetrics::add_responses(const StudyInput& input, const StudySignals& sign
   for (std::size_t i = 0; i < input.response.size(); ++i) {
     const ResponseInput& response = input.response[i];
     for (const Channel& channel : signals.response[i]) {
-      ChannelReduction<double> reduction;
+      ChannelReduction reduction;
       reduction.channel = channel;
       reduction.sampling = sample_window(grid_, 1, response.window);
       if (!response.window) reduction.sampling.begin = 0;
@@ -150,7 +150,7 @@ std::vector<Trace> RunMetrics::traces() const {
   return has_traces_ ? to_traces(observers_.series.front()) : std::vector<Trace>();
 }
 
-std::vector<Trace> to_traces(const Series<double>& series) {
+std::vector<Trace> to_traces(const Series& series) {
   std::vector<Trace> traces;
   const std::size_t n = series.channels.size();
   for (std::size_t c = 0; c < n; ++c) {

@@ -18,8 +18,8 @@ class RunMetrics {
   RunMetrics(const StudyInput& input, const StudySignals& signals, const SimulationOptions& options,
              const ReferenceRecord* reference, const RunMetrics* like = nullptr);
 
-  Observers<double>& observers() { return observers_; }
-  const Observers<double>& observers() const { return observers_; }
+  Observers& observers() { return observers_; }
+  const Observers& observers() const { return observers_; }
 
   // One number for each response of a load case (response_list.h). Of a run that failed only what
   // does not depend on its end is kept, the rest is NaN.
@@ -50,7 +50,7 @@ class RunMetrics {
   StepGrid grid_;
   std::vector<Reduction> reductions_;  // by reduced channel
   std::shared_ptr<const Compared> compared_;
-  Observers<double> observers_;  // comparisons: matches, then gaps
+  Observers observers_;  // comparisons: matches, then gaps
   bool has_traces_ = false;
 };
 
@@ -58,7 +58,7 @@ class RunMetrics {
 Sampling sample_output(const StepGrid& grid, double output_interval);
 
 // A series as histories; `channels` start with time.
-std::vector<Trace> to_traces(const Series<double>& series);
+std::vector<Trace> to_traces(const Series& series);
 
 // The channel "time".
 Channel time_channel();

@@ -12,9 +12,8 @@ Cause never(void*, double) {
   return Cause::ok;
 }
 
-Comparison<double> compare_closure_force(const Mechanism& mechanism, const double* reference,
-                                         long steps) {
-  Comparison<double> c;
+Comparison compare_closure_force(const Mechanism& mechanism, const double* reference, long steps) {
+  Comparison c;
   c.channels = find_channels(list_channels(mechanism),
                              "closure." + mechanism.closure_names.front() + ".force");
   c.sampling = {0, steps, 1};

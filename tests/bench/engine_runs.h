@@ -46,7 +46,7 @@ class EngineRun {
   long steps_;
   double begin_ = 0.0;  // s
   std::vector<double> y_, reference_;
-  std::vector<Observers<double>> observers_;
+  std::vector<Observers> observers_;
   std::vector<LaneEnd> ends_;
   std::vector<std::vector<double>> finals_;
   std::vector<LaneCase> cases_;

@@ -16,7 +16,7 @@ namespace {
 // A case and everything that its run left.
 struct Case {
   Model model;
-  Observers<double> observers;
+  Observers observers;
   SimulationOutcome outcome;
 };
 
@@ -31,9 +31,9 @@ std::vector<SimdLevel> levels() {
   return found;
 }
 
-Observers<double> watch_everything(const Model& model, long steps) {
+Observers watch_everything(const Model& model, long steps) {
   const std::vector<Channel> all = list_channels(model.mechanism);
-  Observers<double> o;
+  Observers o;
   o.series.push_back({all, {0, steps, 7}, {}});
   o.reductions.push_back({all.back(), {1, steps, 2}});
   return o;

@@ -97,8 +97,8 @@ Samples run(const Model& model, const SimulationOptions& options,
             const std::vector<std::string>& signals) {
   const std::vector<Channel> all = list_channels(model.mechanism);
   const StepGrid grid = make_step_grid(options);
-  Observers<double> observers;
-  Series<double> series;
+  Observers observers;
+  Series series;
   for (const std::string& signal : signals) {
     for (const Channel& c : channels_of(all, signal)) series.channels.push_back(c);
   }
@@ -106,7 +106,7 @@ Samples run(const Model& model, const SimulationOptions& options,
   observers.series.push_back(series);
   Samples samples;
   samples.outcome = simulate(model.mechanism, model.parameters, model.start, options, observers);
-  const Series<double>& kept = observers.series.front();
+  const Series& kept = observers.series.front();
   const auto rows = static_cast<Eigen::Index>(kept.rows());
   const auto columns = static_cast<Eigen::Index>(kept.channels.size());
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -115,7 +115,7 @@ Samples run(const Model& model, const SimulationOptions& options,
 }
 
 SimulationOutcome run(const Model& model, const SimulationOptions& options) {
-  Observers<double> none;
+  Observers none;
   return simulate(model.mechanism, model.parameters, model.start, options, none);
 }
 

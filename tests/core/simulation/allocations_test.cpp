@@ -54,16 +54,16 @@ namespace linkstudy::testing {
 namespace {
 
 // Everything observers can ask for, sampled at every step.
-Observers<double> all_channels(const Model& model, long steps) {
+Observers all_channels(const Model& model, long steps) {
   const std::vector<Channel> all = list_channels(model.mechanism);
-  Observers<double> observers;
+  Observers observers;
   observers.series.push_back({all, {0, steps, 1}, {}});
   observers.reductions.push_back({all.back(), {0, steps, 1}});
   return observers;
 }
 
 long allocations_of(const Model& model, long steps) {
-  Observers<double> observers = all_channels(model, steps);
+  Observers observers = all_channels(model, steps);
   const SimulationOptions options = steps_of(1e-4, 1e-4 * static_cast<double>(steps), 1e-3);
   const long before = allocations;
   const SimulationOutcome end =
@@ -78,8 +78,8 @@ long allocations_of(const Model& model, long steps) {
 // Of a full pack on the widest instruction set.
 long allocations_of_pack(const Model& model, long steps) {
   const SimdLevel level = choose_simd_level(nullptr, nullptr);
-  std::vector<Observers<double>> observers(static_cast<std::size_t>(level.lanes),
-                                           all_channels(model, steps));
+  std::vector<Observers> observers(static_cast<std::size_t>(level.lanes),
+                                   all_channels(model, steps));
   std::vector<BatchCase> cases;
   for (auto& o : observers) cases.push_back({&model.parameters, &model.start, &o, {}});
   const SimulationOptions options = steps_of(1e-4, 1e-4 * static_cast<double>(steps), 1e-3);

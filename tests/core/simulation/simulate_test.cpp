@@ -83,7 +83,7 @@ TEST(Simulate, An_undefined_start_has_diverged_at_once) {
 TEST(Simulate, A_cancelled_run_and_a_run_out_of_time_say_so) {
   const Model model = compile(rsrrp());
   const std::atomic<bool> cancelled = true;
-  Observers<double> none;
+  Observers none;
   RunLimits limits;
   limits.cancelled = &cancelled;
   const SimulationOptions options = steps_of(1e-4, 15.0);
@@ -100,7 +100,7 @@ TEST(Observers, A_reduction_and_a_comparison_say_what_the_series_says) {
   const auto all = list_channels(model.mechanism);
   const auto force = find_channels(all, "closure.S.force");
   const Sampling window{100, 1000, 10};
-  Observers<double> first;
+  Observers first;
   first.series.push_back({force, window, {}});
   first.reductions.push_back({force[1], window});
   const SimulationOptions options = steps_of(1e-4, 0.1);
@@ -108,9 +108,9 @@ TEST(Observers, A_reduction_and_a_comparison_say_what_the_series_says) {
   const std::vector<double>& reference = first.series[0].values;
   ASSERT_EQ(first.series[0].rows(), 91u);
   const Model soft = compile(replaced_rsrrp(1e5));
-  Observers<double> second;
+  Observers second;
   second.series.push_back({force, window, {}});
-  Comparison<double> against;
+  Comparison against;
   against.channels = force;
   against.sampling = window;
   against.reference = reference.data();

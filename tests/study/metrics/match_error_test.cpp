@@ -11,8 +11,8 @@ namespace {
 
 // A reference of three components over 101 steps of 0.01 s: 3 sin t, 4 sin t and 1e-3, so that the
 // largest is known in closed form.
-Series<double> make_reference() {
-  Series<double> series;
+Series make_reference() {
+  Series series;
   const char* names[] = {"closure.S.force.x", "closure.S.force.y", "closure.S.force.z"};
   for (int i = 0; i < 3; ++i) {
     series.channels.push_back({names[i], "N", Quantity::closure_force, 0, i});
@@ -31,9 +31,9 @@ class MatchErrors : public ::testing::Test {
  protected:
   // Errors when every sample differs from the reference by `offset`.
   std::vector<double> reduce(double offset) const {
-    const Series<double> reference = make_reference();
+    const Series reference = make_reference();
     const MatchError error(match_, reference.channels, kGrid, reference, kGrid);
-    Comparison<double> comparison = error.make_comparison();
+    Comparison comparison = error.make_comparison();
     comparison.seen = comparison.sampling.count();
     comparison.max_error.assign(3, offset);
     comparison.square_error.assign(3, offset * offset * static_cast<double>(comparison.seen));
@@ -77,10 +77,10 @@ TEST_F(MatchErrors, See_only_the_window) {
 }
 
 TEST_F(MatchErrors, Are_zero_or_infinite_where_the_reference_is_zero) {
-  Series<double> reference = make_reference();
+  Series reference = make_reference();
   reference.values.assign(reference.values.size(), 0.0);
   const MatchError error(match_, reference.channels, kGrid, reference, kGrid);
-  Comparison<double> comparison = error.make_comparison();
+  Comparison comparison = error.make_comparison();
   comparison.seen = 100;
   comparison.max_error = {0.0, 1e-9, 0.0};
   comparison.square_error = {0.0, 1e-18, 0.0};
@@ -90,10 +90,10 @@ TEST_F(MatchErrors, Are_zero_or_infinite_where_the_reference_is_zero) {
 }
 
 TEST_F(MatchErrors, Pick_the_common_instants_of_a_coarser_case) {
-  const Series<double> reference = make_reference();
+  const Series reference = make_reference();
   match_.window = TimeWindow{0.04, 1.0};
   const MatchError error(match_, reference.channels, StepGrid{50, 0.02}, reference, kGrid);
-  const Comparison<double> comparison = error.make_comparison();
+  const Comparison comparison = error.make_comparison();
   ASSERT_EQ(comparison.sampling.begin, 2);
   EXPECT_EQ(comparison.sampling.count(), 49);
   EXPECT_EQ(comparison.reference[0], 3.0 * std::sin(0.01 * 4));
@@ -101,7 +101,7 @@ TEST_F(MatchErrors, Pick_the_common_instants_of_a_coarser_case) {
 }
 
 TEST_F(MatchErrors, Say_what_cannot_be_compared) {
-  const Series<double> reference = make_reference();
+  const Series reference = make_reference();
   EXPECT_THROW(MatchError(match_, reference.channels, StepGrid{97, 1.0 / 97.003}, reference, kGrid),
                InvalidPoint);
   EXPECT_THROW(MatchError(match_, reference.channels, StepGrid{200, 0.01}, reference, kGrid),

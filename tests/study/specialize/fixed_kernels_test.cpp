@@ -53,7 +53,7 @@ std::vector<SimdLevel> levels() {
 
 struct Runs {
   std::vector<BatchCase> cases;
-  std::vector<Observers<double>> observers;
+  std::vector<Observers> observers;
 };
 
 Runs run(const Model& model, const SimulationOptions& options, int count,
@@ -80,7 +80,7 @@ bool is_abandoned(const Kernel& kernel, const Model& model) {
   y.insert(y.end(), model.start.v.begin(), model.start.v.end());
   y.insert(y.end(), 2, 0.0);
   std::vector<double> final_y = y;
-  Observers<double> none;
+  Observers none;
   LaneEnd end;
   const LaneCase lane{&model.parameters, y.data(), final_y.data(), &none, nullptr, &end};
   const KernelRun setting{0.0, 1e-4, 1, 1, 1.0, [](void*, double) { return Cause::ok; }, nullptr};
