@@ -11,6 +11,15 @@ std::vector<Kernel>& added_kernels() {
   return kernels;
 }
 
+// Even the functions that list kernels are compiled for their instruction set: none is called on a
+// machine without it.
+std::span<const Kernel> general_kernels(InstructionSet isa) {
+  if (!machine_has(isa)) return {};
+  return isa == InstructionSet::avx512 ? avx512_kernels()
+         : isa == InstructionSet::avx2 ? avx2_kernels()
+                                       : baseline_kernels();
+}
+
 }  // namespace
 
 void add_kernels(std::span<const Kernel> kernels) {
@@ -24,10 +33,8 @@ const Kernel& find_kernel(const Mechanism& mechanism, InstructionSet isa, int la
       if (fits(k) && k.serves(mechanism)) return k;
     }
   }
-  for (const auto kernels : {baseline_kernels(), avx2_kernels(), avx512_kernels()}) {
-    for (const Kernel& k : kernels) {
-      if (fits(k)) return k;
-    }
+  for (const Kernel& k : general_kernels(isa)) {
+    if (fits(k)) return k;
   }
   throw std::logic_error("no step loop for this instruction set and number of lanes");
 }

@@ -9,6 +9,7 @@
 
 namespace linkstudy {
 
+// To be called only on a machine that has the instruction set.
 std::span<const Kernel> baseline_kernels();
 std::span<const Kernel> avx2_kernels();
 std::span<const Kernel> avx512_kernels();
