@@ -8,6 +8,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <type_traits>
 
 #include "core/base/real.h"
 
@@ -193,15 +194,18 @@ inline Pack<N, Baseline> nmadd(Pack<N, Baseline> a, Pack<N, Baseline> b, Pack<N,
 
 #if defined(__FMA__)
 template <class Isa>
-inline Pack<1, Isa> madd(Pack<1, Isa> a, Pack<1, Isa> b, Pack<1, Isa> c) {
+requires(!std::is_same_v<Isa, Baseline>) inline Pack<1, Isa> madd(Pack<1, Isa> a, Pack<1, Isa> b,
+                                                                  Pack<1, Isa> c) {
   return Pack<1, Isa>(__builtin_fma(a.v, b.v, c.v));
 }
 template <class Isa>
-inline Pack<1, Isa> msub(Pack<1, Isa> a, Pack<1, Isa> b, Pack<1, Isa> c) {
+requires(!std::is_same_v<Isa, Baseline>) inline Pack<1, Isa> msub(Pack<1, Isa> a, Pack<1, Isa> b,
+                                                                  Pack<1, Isa> c) {
   return Pack<1, Isa>(__builtin_fma(a.v, b.v, -c.v));
 }
 template <class Isa>
-inline Pack<1, Isa> nmadd(Pack<1, Isa> a, Pack<1, Isa> b, Pack<1, Isa> c) {
+requires(!std::is_same_v<Isa, Baseline>) inline Pack<1, Isa> nmadd(Pack<1, Isa> a, Pack<1, Isa> b,
+                                                                   Pack<1, Isa> c) {
   return Pack<1, Isa>(__builtin_fma(-a.v, b.v, c.v));
 }
 inline Pack<4, Avx2> madd(Pack<4, Avx2> a, Pack<4, Avx2> b, Pack<4, Avx2> c) {

@@ -21,7 +21,7 @@ class LaneObservers {
       comparisons_[i].square_error.assign(n, Real(0.0));
     }
     reductions_.resize(form.reductions.size());
-    rows_.assign(form.series.size(), 0);
+    rows_.resize(form.series.size());
   }
 
   template <class M>
@@ -45,7 +45,7 @@ class LaneObservers {
     for (std::size_t k = 0; k < reductions_.size(); ++k) {
       store(reductions_[k], i, out.reductions[k]);
     }
-    for (std::size_t k = 0; k < rows_.size(); ++k) cases_[i].samples[k] = rows_[k];
+    for (std::size_t k = 0; k < rows_.size(); ++k) cases_[i].samples[k] = rows_[k].count;
   }
 
  private:
@@ -54,6 +54,10 @@ class LaneObservers {
     std::vector<Real> max_error, square_error;  // (channels)
     Real max_vector_error = Real(0.0);
     Real square_vector_error = Real(0.0);
+  };
+  // A type of its own, so that its vector is not shared with other instruction sets.
+  struct Rows {
+    std::size_t count = 0;
   };
   struct LaneReduction {
     long seen = 0;
@@ -98,14 +102,14 @@ class LaneObservers {
   void record(const Series& form, std::size_t index, long step, Instant<Real, M>& now) {
     if (!form.sampling.hits(step)) return;
     const std::size_t n = form.channels.size();
-    const std::size_t begin = rows_[index] * n;
+    const std::size_t begin = rows_[index].count * n;
     for (std::size_t k = 0; k < n; ++k) {
       const Real x = now.sample(form.channels[k]);
       for (int i = 0; i < count_; ++i) {
         cases_[i].observers->series[index].values[begin + k] = lane(x, i);
       }
     }
-    ++rows_[index];
+    ++rows_[index].count;
   }
 
   static void store(const LaneComparison& s, int i, Comparison& out) {
@@ -131,7 +135,7 @@ class LaneObservers {
   int count_;
   std::vector<LaneComparison> comparisons_;
   std::vector<LaneReduction> reductions_;
-  std::vector<std::size_t> rows_;  // (series)
+  std::vector<Rows> rows_;  // (series)
 };
 
 }  // namespace linkstudy

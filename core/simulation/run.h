@@ -1,7 +1,7 @@
 // One run of a pack of cases: constant steps of the classical Runge-Kutta method, observers at
-// every accepted state, and a typed cause at the end of each lane. A lane that has ended is out: it
-// is set back to its start so that it can do no harm, and neither reads nor writes anything any
-// more. M is Mechanism, or a type with the structure in it (core/base/walk.h).
+// every accepted state, and a typed cause at the end of each lane. A lane that has ended, or has no
+// case, is set back to its start after every step: nothing grows there, and nothing of it is kept.
+// M is Mechanism, or a type with the structure in it (core/base/walk.h).
 #pragma once
 
 #include "core/base/flush_denormals.h"
@@ -60,6 +60,7 @@ class Run {
       rk_.advance(t, setting_.h, y_.data(),
                   [this](double s, const Real* y, Real* slope) { differentiate(s, y, slope); });
       finish_step();
+      if (active_ != kAllLanes<Real>) reset_idle_lanes();
     }
     end_lanes(active_, Cause::ok);
   }
@@ -120,7 +121,7 @@ class Run {
     Real fastest(0.0), sum(0.0), square(0.0);
     for_velocities(m_, [&](auto k) {
       fastest = max(fastest, abs(at(y_, m_.nq + k)));
-      sum = sum + abs(at(w_.qdd, k));
+      sum = sum + (abs(at(y_, m_.nq + k)) + abs(at(w_.qdd, k)));
     });
     for_range(Index<0>(), cut_row_count(m_),
               [&](auto r) { square = madd(at(w_.cut_rows, r).d, at(w_.cut_rows, r).d, square); });
@@ -185,6 +186,12 @@ class Run {
     observers_.store(i);
     active_ &= ~(1u << i);
     reset(i);
+  }
+
+  void reset_idle_lanes() {
+    for (int i = 0; i < lanes; ++i) {
+      if ((active_ >> i & 1u) == 0) reset(i);
+    }
   }
 
   void reset(int i) {

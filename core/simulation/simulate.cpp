@@ -65,9 +65,8 @@ class Packed {
     for (std::size_t i = 0; i < cases.size(); ++i) add(i);
   }
 
-  void run(const SimulationOptions& options, const RunLimits& limits, const Kernel& kernel) {
+  void run(const SimulationOptions& options, Watch& watch, const Kernel& kernel) {
     const StepGrid grid = make_step_grid(options);
-    Watch watch{limits};
     const double t0 = cases_[0].start->t;
     const long stride = std::max(1L, std::lround(options.output_interval / grid.h));
     const KernelRun setting{t0,          grid.h, grid.count, stride, options.drift_limit,
@@ -132,11 +131,18 @@ void run_pack(const Mechanism& m, const SimulationOptions& options, std::span<Ba
               const RunLimits& limits, const StepLoopChoice& choice) {
   const InstructionSet isa = choice.level.isa;
   const int lanes = cases.size() == 1 ? 1 : choice.level.lanes;
+  Watch watch{limits};
   Packed packed(m, cases);
-  packed.run(options, limits, find_kernel(m, isa, lanes, choice.general));
+  packed.run(options, watch, find_kernel(m, isa, lanes, choice.general));
+  std::vector<BatchCase> abandoned;
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    if (!packed.abandoned(i)) continue;
-    Packed(m, cases.subspan(i, 1)).run(options, limits, find_kernel(m, isa, 1, true));
+    if (packed.abandoned(i)) abandoned.push_back(cases[i]);
+  }
+  if (abandoned.empty()) return;
+  Packed(m, abandoned).run(options, watch, find_kernel(m, isa, lanes, true));
+  auto done = abandoned.begin();
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    if (packed.abandoned(i)) cases[i].outcome = std::move((done++)->outcome);
   }
 }
 
