@@ -144,6 +144,7 @@ class Launch {
 
   int run(const SessionWork& work) {
     int code = pass_gate(transport_, [this] { return read_input(); });
+    if (code == kDone) code = pass_gate(transport_, [this] { return agree_on_rounding(); });
     if (code != kDone) return code;
     code = pass_gate(transport_, [this] { return open_record(); });
     if (code == kDone && wants_references()) {
@@ -164,6 +165,20 @@ class Launch {
     throw_if_any(diagnostics);
     if (kind_ == StudyKind::study) total_ = points_of(input).size();
     return kDone;
+  }
+
+  // Sets with fused multiply-adds and the one without differ in bits: then it would matter which
+  // rank evaluates what.
+  int agree_on_rounding() {
+    const std::string own(name_of(simd_level().isa));
+    const std::string baseline(name_of(InstructionSet::baseline));
+    std::string first = own;
+    transport_.broadcast(first);
+    if ((own == baseline) == (first == baseline)) return kDone;
+    throw SimdError(fmt::format(
+        "rank {} on {} runs on {}, rank 0 on {}, which rounds differently: use machines "
+        "of one kind, or LINKSTUDY_SIMD=baseline for all",
+        transport_.rank(), transport_.host(), own, first));
   }
 
   int open_record() {

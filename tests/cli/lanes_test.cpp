@@ -52,6 +52,17 @@ TEST_F(Lanes, Change_no_digest_however_many_ranks_there_are) {
   }
 }
 
+TEST_F(Lanes, Of_ranks_that_round_differently_are_refused) {
+  if (fused_sets().empty()) GTEST_SKIP() << "this machine has no other set than the baseline";
+  const std::string one_differs = launch_of(2) +
+                                  " sh -c 'test $OMPI_COMM_WORLD_RANK = 1 && export "
+                                  "LINKSTUDY_SIMD=baseline; exec \"$0\" \"$@\"'";
+  const Ended ended = run("study study.toml -o mixed", one_differs);
+  EXPECT_EQ(ended.code, 2) << ended.err;
+  EXPECT_THAT(ended.err, HasSubstr("rounds differently"));
+  EXPECT_THAT(left_behind(), Not(::testing::Contains(HasSubstr("mixed"))));
+}
+
 TEST_F(Lanes, Give_equal_bits_wherever_multiply_and_add_are_fused) {
   if (fused_sets().size() < 2) GTEST_SKIP() << "this machine has not both";
   std::vector<std::string> outs;
