@@ -9,6 +9,7 @@
 #include "tests/mechanisms/random_linkages.h"
 #include "tests/mechanisms/rsrrp.h"
 #include "tests/support/engine_probe.h"
+#include "tests/support/simd_levels.h"
 
 namespace linkstudy::testing {
 namespace {
@@ -19,17 +20,6 @@ struct Case {
   Observers observers;
   SimulationOutcome outcome;
 };
-
-std::vector<SimdLevel> levels() {
-  std::vector<SimdLevel> found;
-  for (const char* set : {"baseline", "avx2", "avx512"}) {
-    try {
-      found.push_back(choose_simd_level(set, nullptr));
-    } catch (const SimdError&) {
-    }
-  }
-  return found;
-}
 
 Observers watch_everything(const Model& model, long steps) {
   const std::vector<Channel> all = list_channels(model.mechanism);
@@ -124,7 +114,7 @@ SimulationOptions short_run(long steps) {
 TEST(Lanes, A_case_in_a_pack_has_the_bits_of_its_own_run) {
   constexpr long steps = 60;
   const std::vector<Linkage> all = linkages();
-  for (const SimdLevel& level : levels()) {
+  for (const SimdLevel& level : simd_levels()) {
     for (std::size_t n = 0; n < all.size(); ++n) {
       const int count = level.lanes + 2;  // a full pack and a part of one
       std::vector<Case> packed = make_cases(all[n], count, steps);
@@ -172,7 +162,7 @@ TEST(Lanes, Baseline_agrees_with_the_fused_sets_to_rounding) {
 
 TEST(Lanes, Neither_order_nor_neighbours_change_a_bit) {
   constexpr long steps = 200;
-  for (const SimdLevel& level : levels()) {
+  for (const SimdLevel& level : simd_levels()) {
     for (const ClosureModel model : {ClosureModel::sde, ClosureModel::cut}) {
       const Linkage linkage = rsrrp_test_vector(model);
       std::vector<Case> there = make_cases(linkage, level.lanes, steps);
@@ -203,7 +193,7 @@ TEST(Lanes, A_lane_that_diverges_ends_as_it_would_alone_and_leaves_the_others) {
   Linkage linkage = rsrrp();
   linkage.closures[0].model = ClosureModel::sde;
   constexpr long steps = 3000;
-  for (const SimdLevel& level : levels()) {
+  for (const SimdLevel& level : simd_levels()) {
     const auto make = [&] {
       std::vector<Case> cases = make_cases(linkage, level.lanes, steps);
       for (auto& s : cases[1].model.parameters.springs) s.stiffness = 1e9;  // far past the limit
@@ -238,7 +228,7 @@ TEST(Lanes, A_decaying_motion_ends_among_normal_numbers) {
   const double inertia = EngineProbe(linkage).mass_matrix()(0, 0);
   const double rate = 1000.0 / inertia;  // 1/s
   const SimulationOptions options = steps_of(0.5 / rate, 3000.0 / rate, 100.0 / rate);
-  for (const SimdLevel& level : levels()) {
+  for (const SimdLevel& level : simd_levels()) {
     std::vector<Case> cases = make_cases(linkage, level.lanes, 6000);
     run_cases(cases, options, level);
     for (const Case& c : cases) {

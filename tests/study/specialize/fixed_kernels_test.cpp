@@ -10,6 +10,7 @@
 #include "core/simulation/simulate.h"
 #include "study/config/model_document.h"
 #include "study/specialize/fixed_kernels.h"
+#include "tests/support/simd_levels.h"
 
 namespace linkstudy {
 namespace {
@@ -38,17 +39,6 @@ const std::vector<Specialised>& specialised() {
                                                {"rsrrp.toml", {"closure.S.model=cut"}},
                                                {"rsrrp_revolute.toml", {"closure.R.model=sde"}}};
   return all;
-}
-
-std::vector<SimdLevel> levels() {
-  std::vector<SimdLevel> found;
-  for (const char* set : {"baseline", "avx2", "avx512"}) {
-    try {
-      found.push_back(choose_simd_level(set, nullptr));
-    } catch (const SimdError&) {
-    }
-  }
-  return found;
 }
 
 struct Runs {
@@ -94,7 +84,7 @@ TEST(FixedKernels, The_listed_models_have_their_own_step_loop_and_others_do_not)
   add_once();
   for (const Specialised& s : specialised()) {
     const Mechanism m = compile(read_config(s.file, s.set).linkage).mechanism;
-    for (const SimdLevel& level : levels()) {
+    for (const SimdLevel& level : testing::simd_levels()) {
       const Kernel& kernel = find_kernel(m, level.isa, level.lanes);
       ASSERT_NE(kernel.serves, nullptr) << s.file;
       EXPECT_TRUE(kernel.serves(m));
@@ -113,7 +103,7 @@ TEST(FixedKernels, Whole_runs_have_the_bits_of_the_general_step_loop) {
     input.options.end_time = 3.0;
     const Preparation p = prepare(input.linkage, input.options);
     ASSERT_EQ(p.cause, Cause::ok) << p.message;
-    for (const SimdLevel& level : levels()) {
+    for (const SimdLevel& level : testing::simd_levels()) {
       for (const int lanes : {1, level.lanes}) {
         const Runs fixed = run(p.model, input.options, lanes, {{level.isa, lanes}, false});
         const Runs general = run(p.model, input.options, 1, {{level.isa, 1}, true});
@@ -143,7 +133,7 @@ TEST(FixedKernels, Where_rows_are_nearly_dependent_the_general_step_loop_takes_o
   }
   input.options.end_time = 0.01;
   const Model model = compile(input.linkage);
-  const SimdLevel level = levels().back();
+  const SimdLevel level = testing::simd_levels().back();
   ASSERT_NE(find_kernel(model.mechanism, level.isa, level.lanes).serves, nullptr);
   EXPECT_TRUE(is_abandoned(find_kernel(model.mechanism, level.isa, 1), model));
   const Runs fixed = run(model, input.options, level.lanes, {level, false});
