@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/mechanisms/mass_on_spring.h"
 #include "tests/mechanisms/pendulum.h"
 #include "tests/mechanisms/rsrrp.h"
 #include "tests/support/engine_probe.h"
@@ -14,24 +15,10 @@
 namespace linkstudy::testing {
 namespace {
 
-Linkage mass_on_spring(double mass, double stiffness, double damping) {
-  Linkage linkage;
-  linkage.links = {{"mass", mass, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero()}};
-  Joint rail;
-  rail.name = "rail";
-  rail.type = JointType::prismatic;
-  rail.parent = kGround;
-  rail.child = "mass";
-  rail.position = {0.01};
-  linkage.joints = {rail};
-  Closure spring;
-  spring.name = "spring";
-  spring.model = ClosureModel::sde;
-  spring.first.link = "mass";
-  spring.second.link = kGround;
-  spring.sde.stiffness[kZ] = stiffness;
-  spring.sde.damping[kZ] = damping;
-  linkage.closures = {spring};
+// Off its rest, where the element has a length.
+Linkage stretched_spring(double mass, double stiffness, double damping) {
+  Linkage linkage = mass_on_spring(mass, stiffness, damping);
+  linkage.joints[0].position = {0.01};
   return linkage;
 }
 
@@ -71,7 +58,7 @@ Spectrum spectrum_of(const Linkage& linkage) {
 }  // namespace
 
 TEST(Spectrum, A_mass_on_a_spring_swings_at_the_root_of_stiffness_over_mass) {
-  const Spectrum s = spectrum_of(mass_on_spring(2.0, 5e5, 0.0));
+  const Spectrum s = spectrum_of(stretched_spring(2.0, 5e5, 0.0));
   EXPECT_NEAR(s.omega_max, 500.0, 1e-5);
   ASSERT_EQ(s.eigenvalues.size(), 2u);
   EXPECT_NEAR(std::abs(s.eigenvalues[0].imag()), 500.0, 1e-5);
@@ -80,7 +67,7 @@ TEST(Spectrum, A_mass_on_a_spring_swings_at_the_root_of_stiffness_over_mass) {
 
 TEST(Spectrum, A_damper_moves_the_pair_to_its_ratio) {
   const double m = 2.0, c = 5e5, zeta = 0.3, w = 500.0;
-  const Spectrum s = spectrum_of(mass_on_spring(m, c, 2 * zeta * std::sqrt(c * m)));
+  const Spectrum s = spectrum_of(stretched_spring(m, c, 2 * zeta * std::sqrt(c * m)));
   for (const std::complex<double>& lambda : s.eigenvalues) {
     EXPECT_NEAR(lambda.real(), -zeta * w, 1e-4);
     EXPECT_NEAR(std::abs(lambda.imag()), w * std::sqrt(1 - zeta * zeta), 1e-4);
@@ -89,7 +76,7 @@ TEST(Spectrum, A_damper_moves_the_pair_to_its_ratio) {
 
 TEST(Spectrum, Strong_damping_limits_the_step_by_its_fast_real_eigenvalue) {
   const double m = 1.0, c = 1e4, b = 1000.0;  // aperiodic
-  const Spectrum s = spectrum_of(mass_on_spring(m, c, b));
+  const Spectrum s = spectrum_of(stretched_spring(m, c, b));
   const double fast = b / (2 * m) + std::sqrt(b * b / (4 * m * m) - c / m);
   EXPECT_NEAR(s.omega_max, fast, 1e-4);
   EXPECT_NEAR(s.step_limit * fast, 2.785293563405282, 1e-5);
@@ -209,7 +196,7 @@ TEST(StableStep, Just_below_it_the_method_does_not_grow_and_just_above_it_does) 
 
 TEST(StepLimit, A_run_just_below_it_stays_bounded_and_just_above_it_ends_with_a_cause) {
   for (const double damping : {0.0, 100.0}) {
-    const Linkage linkage = mass_on_spring(1.0, 1e6, damping);
+    const Linkage linkage = stretched_spring(1.0, 1e6, damping);
     const double limit = spectrum_of(linkage).step_limit;
     const Model model = compile(linkage);
     const SimulationOutcome below = run(model, steps_of(0.995 * limit, 20.0, 0.01));

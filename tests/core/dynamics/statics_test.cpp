@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "tests/mechanisms/four_bar.h"
+#include "tests/mechanisms/mass_on_spring.h"
 #include "tests/mechanisms/pendulum.h"
 #include "tests/mechanisms/rsrrp.h"
 #include "tests/support/engine_probe.h"
@@ -38,22 +39,8 @@ Linkage pendulum_at(double angle) {
 }
 
 Linkage hanging_mass(double mass, double stiffness) {
-  Linkage linkage;
+  Linkage linkage = mass_on_spring(mass, stiffness);
   linkage.gravity = Vector3d(0, 0, -9.81);
-  linkage.links = {{"mass", mass, Vector3d::Zero(), Eigen::Matrix3d::Zero()}};
-  Joint rail;
-  rail.name = "rail";
-  rail.type = JointType::prismatic;
-  rail.parent = kGround;
-  rail.child = "mass";
-  linkage.joints = {rail};
-  Closure spring;
-  spring.name = "spring";
-  spring.model = ClosureModel::sde;
-  spring.first.link = "mass";
-  spring.second.link = kGround;
-  spring.sde.stiffness[kZ] = stiffness;
-  linkage.closures = {spring};
   return linkage;
 }
 
