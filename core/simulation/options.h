@@ -3,7 +3,10 @@
 
 namespace linkstudy {
 
-enum class Integrator { rk4 };
+// rk4: constant steps of the classical Runge-Kutta method. adaptive: explicit, Dormand and Prince.
+// stiff: implicit, Rosenbrock. The last two choose their steps by the tolerances, locate the begin
+// and the end of contacts, and are seen by observers on the grid of `step`.
+enum class Integrator { rk4, adaptive, stiff };
 enum class Start { given, equilibrium };
 
 struct SimulationOptions {
@@ -11,6 +14,9 @@ struct SimulationOptions {
   double step = 1.0e-4;           // s; the run takes ceil(end_time / step) equal steps
   double output_interval = 1e-2;  // s; sampled channels and the energy ledger
   Integrator integrator = Integrator::rk4;
+  double relative_tolerance = 1.0e-8;   // adaptive, stiff
+  double absolute_tolerance = 1.0e-10;  // adaptive, stiff: in the units of each unknown
+  long step_limit = 100'000'000;        // adaptive, stiff: more steps end the run (step_budget)
   Start start = Start::given;
   double drift_limit = 1.0e-3;  // m or rad; a larger gap of a cut closure ends the run
 };

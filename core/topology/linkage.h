@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "core/laws/contact_law.h"
+
 namespace linkstudy {
 
 // Name of the fixed link. It is never listed among Linkage::links.
@@ -21,6 +23,23 @@ struct Frame {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();      // p_LF, m
 };
 
+// A beam modelled by rigid finite elements ([AugUrb18] sec. 3): `segments` spring-damping elements
+// join segments + 1 rigid elements, the first and the last of half length. Mass, centre and inertia
+// of the link stay those of the rigid link, which must be a uniform beam from `begin` to `end`.
+// Beam axes: x along the beam, y and z across, y = `across` made perpendicular to x.
+struct FlexibleBeam {
+  int segments = 4;
+  Eigen::Vector3d begin = Eigen::Vector3d::Zero();    // ends of the beam, link frame, m
+  Eigen::Vector3d end = Eigen::Vector3d::UnitX();     // link frame, m
+  Eigen::Vector3d across = Eigen::Vector3d::UnitY();  // link frame
+  double young = 0.0;                                 // E, Pa
+  double shear = 0.0;                                 // G, Pa
+  double second_moment_y = 0.0;                       // J_y = integral z^2 dA: bending about y, m^4
+  double second_moment_z = 0.0;                       // J_z = integral y^2 dA: bending about z, m^4
+  double torsion_constant = 0.0;                      // J_t, m^4
+  double retardation = 0.0;  // eta / E of Kelvin and Voigt, s: damping = stiffness * this
+};
+
 struct Link {
   std::string name;
   double mass = 0.0;                                         // kg
@@ -28,6 +47,7 @@ struct Link {
   // About the centre of mass, in axes parallel to the link frame, kg m^2. The off-diagonal entries
   // are those of the matrix, I_xy = -integral(x y dm).
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+  std::optional<FlexibleBeam> flexible;
 };
 
 // Motions of a joint's child frame in its parent frame, in the order of its coordinates:
@@ -53,6 +73,33 @@ enum class JointType {
 // and three velocities, the angular velocity of the child in its own joint axes.
 enum class RotationCoordinates { zyx, quaternion };
 
+// LuGre friction in coefficient form ([AugUrb18] eqs. (14)-(15)): friction force mu N with
+//   mu = sigma0 z + sigma1 z_dot + sigma2 v,   z_dot = v - sigma0 |v| z / g(v),
+//   g(v) = mu_k + (mu_s - mu_k) exp(-(v / v_s)^2);
+// with a damping speed v_d > 0 sigma1 is weighted by exp(-(v / v_d)^2).
+struct Friction {
+  double mu_s = 0.0;    // static coefficient
+  double mu_k = 0.0;    // kinetic coefficient
+  double v_s = 0.01;    // Stribeck speed, m/s
+  double sigma0 = 0.0;  // stiffness of the bristle, 1/m
+  double sigma1 = 0.0;  // damping of the bristle, s/m
+  double sigma2 = 0.0;  // viscous, s/m
+  double v_d = 0.0;     // damping speed, m/s; 0: sigma1 does not depend on speed
+};
+
+// Friction in a revolute, prismatic or cylindrical joint, driven by its own reaction. The joint is
+// held at two supports, `length` apart along its axis; with F the reaction force across the axis
+// and M the moment across it about the joint origin the normal load is
+//   N = preload + |F / 2 + e x M / length| + |F / 2 - e x M / length|    (length 0: preload + |F|),
+// and in a prismatic joint |M_axis| / radius more, with radius > 0. Sliding speed: radius * rate of
+// turning, rate of translation, both as a vector in a cylindrical joint.
+struct JointFriction {
+  Friction law;
+  double radius = 0.0;   // of the sliding surface, m
+  double length = 0.0;   // between the supports, m; 0: moments are not felt
+  double preload = 0.0;  // N
+};
+
 // A joint of the spanning tree. X_parent_child = frame * X_joint(q) * child_frame^-1.
 struct Joint {
   std::string name;
@@ -66,6 +113,12 @@ struct Joint {
   std::vector<double> position;  // (nq) start, possibly approximate; empty: zero (identity)
   std::vector<double> velocity;  // (nv) start; empty: zero
   bool hold = false;             // assembly keeps position and velocity of this joint
+  // Spring and damper on every coordinate, generalised force -c (q - rest) - b v; empty: none.
+  // Not for quaternions.
+  std::vector<double> stiffness;  // (nv) c, N/m or N m/rad
+  std::vector<double> damping;    // (nv) b, N s/m or N m s/rad
+  std::vector<double> rest;       // (nv) empty: zero
+  std::optional<JointFriction> friction;
 };
 
 // Number of velocities (degrees of freedom) and of positions of a joint.
@@ -103,6 +156,37 @@ struct Sde {
   Eigen::Matrix3d directions = Eigen::Matrix3d::Identity();
 };
 
+// Revolute closure with radial clearance ([AugUrb18] sec. 4). The x axis of the bearing end and the
+// x axis of the journal end are the axes of the two. planar: axes stay parallel and nothing moves
+// along them (three multipliers), one contact in the middle. spatial: only the motion along the
+// axis is blocked (one multiplier); the journal's axis may skew, one contact at either end of the
+// bearing, each with half of the stiffness, so that parallel axes give the planar force.
+enum class ClearanceKind { planar, spatial };
+// What the bristle of a contact does while there is no contact: it is zero, it relaxes by
+// z_dot = -(sigma0 / sigma1) z, or it keeps its deflection.
+enum class FreeBristle { reset, relax, hold };
+
+struct Material {
+  double young = 207.0e9;  // E, Pa
+  double poisson = 0.3;    // nu
+};
+
+struct Clearance {
+  ClearanceKind kind = ClearanceKind::planar;
+  bool bearing_is_first = false;  // the other end carries the journal
+  double radial = 0.0;            // c_r = r_b - r_j, m
+  double bearing_radius = 0.0;    // r_b, m; carries friction, and K from materials
+  double length = 0.0;            // of the bearing, m; spatial
+  ContactLaw law = ContactLaw::lankarani_nikravesh;
+  double restitution = 0.9;         // k_e
+  double exponent = 1.5;            // n
+  std::optional<double> stiffness;  // K, N/m^n; empty: from the materials and radii
+  Material bearing, journal;
+  double least_speed = 1.0e-4;  // m/s: floor of the approach speed
+  FreeBristle free_bristle = FreeBristle::reset;
+  std::optional<Friction> friction;
+};
+
 struct ClosureEnd {
   std::string link;  // a link or kGround
   Frame frame;       // {c,e} in that link
@@ -120,6 +204,7 @@ struct Closure {
   double alpha = 100.0;  // Baumgarte, 1/s, [AugUrb18] eq. (9): -2 alpha Phi_dot - beta^2 Phi
   double beta = 50.0;    // Baumgarte, 1/s
   Sde sde;
+  Clearance clearance;
 };
 
 // Directions that a joint of this type blocks, as a bit mask (bit d for Direction d).
