@@ -34,6 +34,7 @@ template <int N>
 struct PackStorage {
   using Vector [[gnu::vector_size(8 * N)]] = double;
   using Mask [[gnu::vector_size(8 * N)]] = std::int64_t;
+  using Unsigned [[gnu::vector_size(8 * N)]] = std::uint64_t;
 };
 template <>
 struct PackStorage<1> {
@@ -170,6 +171,30 @@ inline Pack<N, Isa> power_of_two(Pack<N, Isa> n) {
   } else {
     using Bits = typename PackMask<N, Isa>::Bits;
     return P(typename P::Vector(Bits(n.v + shift) << 52));
+  }
+}
+
+// As in real.h. The exponent becomes a number as the low bits of 2^52's significand.
+template <int N, class Isa>
+inline Pack<N, Isa> binary_exponent(Pack<N, Isa> a) {
+  using P = Pack<N, Isa>;
+  if constexpr (N == 1) {
+    return P(binary_exponent(a.v));
+  } else {
+    using Bits = typename detail::PackStorage<N>::Unsigned;
+    const Bits number = (Bits(a.v) >> 52) | (Bits{} + 0x4330000000000000u);
+    return P(typename P::Vector(number)) - P(4503599627370496.0 + 1023.0);
+  }
+}
+template <int N, class Isa>
+inline Pack<N, Isa> binary_fraction(Pack<N, Isa> a) {
+  using P = Pack<N, Isa>;
+  if constexpr (N == 1) {
+    return P(binary_fraction(a.v));
+  } else {
+    using Bits = typename detail::PackStorage<N>::Unsigned;
+    const Bits digits = Bits(a.v) & (Bits{} + 0x000fffffffffffffu);
+    return P(typename P::Vector(digits | (Bits{} + 0x3ff0000000000000u)));
   }
 }
 

@@ -60,6 +60,16 @@ inline double power_of_two(double n) {
   return std::bit_cast<double>((static_cast<std::int64_t>(n) + 1023) << 52);
 }
 
+// A positive x = binary_fraction(x) * 2^binary_exponent(x), the fraction in [1, 2); numbers below
+// 2^-1022 are not split so.
+inline double binary_exponent(double a) {
+  return static_cast<double>(std::bit_cast<std::int64_t>(a) >> 52) - 1023.0;
+}
+inline double binary_fraction(double a) {
+  constexpr std::uint64_t digits = (std::uint64_t{1} << 52) - 1;
+  return std::bit_cast<double>((std::bit_cast<std::uint64_t>(a) & digits) | (1023ull << 52));
+}
+
 // Lanes: a double is its own single lane. Bit i of lane_bits is set where lane i is true.
 inline unsigned lane_bits(bool mask) {
   return mask ? 1u : 0u;
