@@ -1,0 +1,37 @@
+// Differences against derivatives worked out by hand.
+#include "core/numerics/difference_jacobian.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace linkstudy::testing {
+
+TEST(DifferenceJacobian, Columns_of_any_size_are_those_of_the_derivatives) {
+  int calls = 0;
+  const Slopes f = [&calls](double t, const double* y, double* dy) {
+    ++calls;
+    dy[0] = std::sin(y[0]) * y[1] + t * t;
+    dy[1] = 1e3 * y[1] * y[1] + std::exp(y[0]);
+    dy[2] = y[0] + y[1] * t;
+  };
+  DifferenceJacobian j({1e-2, 1e-6, 1.0}, 1);
+  const double y[] = {0.7, 3e-5, 8.0};
+  double dy[3];
+  f(2.0, y, dy);
+  calls = 0;
+  j.update(f, 2.0, y, dy, 0.1);
+  EXPECT_EQ(calls, 3);
+  EXPECT_NEAR(j.by_unknown(0, 0), std::cos(0.7) * 3e-5, 1e-7);
+  EXPECT_NEAR(j.by_unknown(0, 1), std::sin(0.7), 3e-3);  // rounding of t^2 over 4.5e-13
+  EXPECT_NEAR(j.by_unknown(1, 0), std::exp(0.7), 1e-6);
+  EXPECT_NEAR(j.by_unknown(1, 1), 0.06, 1e-3);
+  EXPECT_NEAR(j.by_unknown(2, 0), 1.0, 1e-7);
+  EXPECT_NEAR(j.by_unknown(2, 1), 2.0, 1e-3);
+  for (const int i : {0, 1, 2}) EXPECT_EQ(j.by_unknown(i, 2), 0.0);
+  EXPECT_NEAR(j.by_time()[0], 4.0, 1e-6);
+  EXPECT_NEAR(j.by_time()[1], 0.0, 1e-6);
+  EXPECT_NEAR(j.by_time()[2], 3e-5, 1e-7);
+}
+
+}  // namespace linkstudy::testing
