@@ -10,7 +10,7 @@ struct PackOperands {
 // Results of one lane: what each operation gave for its a, b, c.
 struct PackResults {
   double sum, difference, product, quotient, negated, root, absolute, least, greatest, madd, msub,
-      nmadd, chosen, sine, cosine, broadcast, exponential;
+      nmadd, chosen, sine, cosine, broadcast, exponential, exponent, fraction, logarithm, power;
   bool below, equal, finite;
 };
 

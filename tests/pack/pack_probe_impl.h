@@ -35,7 +35,11 @@ void apply_pack(const PackOperands* operands, PackResults* results, unsigned* ma
                          t.sin,
                          t.cos,
                          Real(0.1),
-                         exp(c)};
+                         exp(c),
+                         binary_exponent(a),
+                         binary_fraction(a),
+                         log(a),
+                         power(a, c)};
   for (int i = 0; i < Lanes; ++i) {
     double* out = &results[i].sum;
     for (const Real& x : values) *out++ = lane(x, i);

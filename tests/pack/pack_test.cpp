@@ -48,6 +48,11 @@ double draw(Random& random) {
   return i < 9 ? strange[i] : random.within(10.0);
 }
 
+// Anything from the smallest normal number to the largest.
+double positive(Random& random) {
+  return std::ldexp(1.5 + random.within(0.5), random.below(2046) - 1022);
+}
+
 ::testing::AssertionResult same(double x, double y) {
   if (std::isnan(x) && std::isnan(y)) return ::testing::AssertionSuccess();
   if (std::memcmp(&x, &y, sizeof x) == 0) return ::testing::AssertionSuccess();
@@ -70,6 +75,10 @@ void expect_same_as_double(const PackOperands& o, const PackResults& r, bool fus
   EXPECT_TRUE(same(r.nmadd, fused ? std::fma(-a, b, c) : c - a * b));
   EXPECT_TRUE(same(r.chosen, a < b ? a : c));
   EXPECT_TRUE(same(r.broadcast, 0.1));
+  if (a >= std::numeric_limits<double>::min() && std::isfinite(a)) {
+    EXPECT_EQ(r.exponent, std::logb(a));
+    EXPECT_EQ(r.fraction, std::scalbn(a, -std::ilogb(a)));
+  }
   EXPECT_EQ(r.below, a < b);
   EXPECT_EQ(r.equal, a == b);
   EXPECT_EQ(r.finite, std::isfinite(a));
@@ -130,6 +139,46 @@ TEST(Pack, Elementary_functions_are_within_two_units_in_the_last_place_in_every_
   }
 }
 
+TEST(Pack, Logarithms_and_powers_are_as_exact_in_every_lane_as_they_say) {
+  for (const Probe& p : probes()) {
+    Random random(17);
+    for (int n = 0; n < 5000; ++n) {
+      std::vector<PackOperands> in(static_cast<std::size_t>(p.lanes));
+      std::vector<PackResults> out(in.size());
+      for (PackOperands& o : in) {
+        o = {n % 2 == 0 ? positive(random) : 1.0 + random.within(0.9), 0.0, random.within(0.99)};
+      }
+      unsigned bits = 0;
+      p.apply(in.data(), out.data(), &bits);
+      for (std::size_t i = 0; i < in.size(); ++i) {
+        const long double exact = std::log(static_cast<long double>(in[i].a));
+        const double size = std::fabs(static_cast<double>(exact));
+        ASSERT_LE(std::fabs(out[i].logarithm - exact), std::nextafter(size, HUGE_VAL) - size);
+        const long double power = std::pow(static_cast<long double>(in[i].a), in[i].c);
+        ASSERT_LE(std::fabs(out[i].power / power - 1.0L),
+                  (1.0L + std::fabs(in[i].c * exact)) * 0x1p-52L);
+      }
+    }
+  }
+}
+
+TEST(Pack, Logarithms_and_powers_of_no_positive_number_end_alike_in_every_lane) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const Probe& p : probes()) {
+    for (const double a : {0.0, -0.0, -2.0, -infinity, infinity, nan, 1e-310}) {
+      std::vector<PackOperands> in(static_cast<std::size_t>(p.lanes), {a, 0.0, 1.5});
+      std::vector<PackResults> out(in.size());
+      unsigned bits = 0;
+      p.apply(in.data(), out.data(), &bits);
+      for (const PackResults& r : out) {
+        EXPECT_TRUE(same(r.logarithm, linkstudy::log(a))) << a;
+        EXPECT_TRUE(same(r.power, a > 1.0 ? infinity : 0.0)) << a;
+      }
+    }
+  }
+}
+
 TEST(Pack, Sets_with_fused_instructions_agree_on_every_bit_of_elementary_functions) {
   if (!machine_has(InstructionSet::avx512)) GTEST_SKIP() << "no AVX-512 here";
   Random random(13);
@@ -137,7 +186,7 @@ TEST(Pack, Sets_with_fused_instructions_agree_on_every_bit_of_elementary_functio
     PackOperands in[8];
     PackResults wide[8], narrow[8];
     unsigned bits = 0;
-    for (PackOperands& o : in) o = {0.0, 0.0, random.within(1000.0)};
+    for (PackOperands& o : in) o = {positive(random), 0.0, random.within(1000.0)};
     apply_avx512_all(in, wide, &bits);
     apply_avx2_all(in, narrow, &bits);
     apply_avx2_all(in + 4, narrow + 4, &bits);
@@ -145,10 +194,13 @@ TEST(Pack, Sets_with_fused_instructions_agree_on_every_bit_of_elementary_functio
       ASSERT_TRUE(same(wide[i].sine, narrow[i].sine));
       ASSERT_TRUE(same(wide[i].cosine, narrow[i].cosine));
       ASSERT_TRUE(same(wide[i].exponential, narrow[i].exponential));
+      ASSERT_TRUE(same(wide[i].logarithm, narrow[i].logarithm));
+      ASSERT_TRUE(same(wide[i].power, narrow[i].power));
       PackResults one;
       apply_avx512_one(in + i, &one, &bits);
       ASSERT_TRUE(same(wide[i].sine, one.sine));
       ASSERT_TRUE(same(wide[i].exponential, one.exponential));
+      ASSERT_TRUE(same(wide[i].logarithm, one.logarithm));
     }
   }
 }

@@ -1,4 +1,5 @@
-// The engine's own sine and cosine against the 64-bit significands of the C library's long double.
+// The engine's own elementary functions against the 64-bit significands of the C library's long
+// double.
 #include "core/base/elementary.h"
 
 #include <gtest/gtest.h>
@@ -61,6 +62,63 @@ TEST(Elementary, The_exponential_ends_in_zero_infinity_and_no_number) {
   EXPECT_EQ(linkstudy::exp(-708.01), 0.0);
   EXPECT_EQ(linkstudy::exp(-infinity), 0.0);
   EXPECT_TRUE(std::isnan(linkstudy::exp(std::nan(""))));
+}
+
+TEST(Elementary,
+     The_logarithm_stays_within_the_documented_error_from_the_least_number_to_the_most) {
+  Random random(3);
+  double worst = 0.0;
+  const auto look = [&](double x) {
+    worst = std::max(worst, ulps(linkstudy::log(x), std::log(static_cast<long double>(x))));
+  };
+  for (int k = 0; k < 400000; ++k) {
+    look(std::ldexp(1.5 + random.within(0.5), random.below(2046) - 1022));
+    look(1.0 + random.within(0.5));
+    look(1.0 + random.within(1e-4));
+    look(1.4142135623730951 + random.within(1e-3));  // both sides of the fraction's change
+    look(0.70710678118654757 + random.within(1e-3));
+  }
+  EXPECT_LT(worst, 1.0);
+}
+
+TEST(Elementary, The_logarithm_is_exact_at_one_and_symmetric_over_powers_of_two) {
+  EXPECT_EQ(linkstudy::log(1.0), 0.0);
+  for (int k = 1; k < 1022; ++k) {
+    EXPECT_EQ(linkstudy::log(std::ldexp(1.0, k)), -linkstudy::log(std::ldexp(1.0, -k))) << k;
+  }
+}
+
+TEST(Elementary, The_logarithm_ends_in_infinities_and_no_number) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(linkstudy::log(0.0), -infinity);
+  EXPECT_EQ(linkstudy::log(-0.0), -infinity);
+  EXPECT_EQ(linkstudy::log(infinity), infinity);
+  for (const double x : {-1e-300, -1.0, -infinity, std::nan("")}) {
+    EXPECT_TRUE(std::isnan(linkstudy::log(x))) << x;
+  }
+  const double least = std::numeric_limits<double>::min();
+  EXPECT_LT(ulps(linkstudy::log(least), std::log(static_cast<long double>(least))), 1.0);
+  const double most = std::numeric_limits<double>::max();
+  EXPECT_LT(ulps(linkstudy::log(most), std::log(static_cast<long double>(most))), 1.0);
+}
+
+TEST(Elementary, A_power_is_as_exact_as_its_logarithm_is_small) {
+  Random random(4);
+  for (int k = 0; k < 200000; ++k) {
+    const double x = std::ldexp(1.5 + random.within(0.5), random.below(60) - 50);
+    const double n = 1.75 + random.within(1.75);
+    const long double exact = std::pow(static_cast<long double>(x), static_cast<long double>(n));
+    const double bound = (1.0 + std::fabs(n * std::log(x))) * 0x1p-52;
+    ASSERT_LE(std::fabs(static_cast<double>(linkstudy::power(x, n) / exact - 1.0L)), bound)
+        << x << "^" << n;
+  }
+}
+
+TEST(Elementary, No_power_of_zero_or_less_is_anything_but_zero) {
+  for (const double x : {0.0, -0.0, -1e-9, -3.0, std::nan("")}) {
+    for (const double n : {0.5, 1.0, 1.5, 2.2}) EXPECT_EQ(linkstudy::power(x, n), 0.0) << x;
+  }
+  EXPECT_EQ(linkstudy::power(1.0, 2.2), 1.0);
 }
 
 TEST(Elementary, Sine_and_cosine_beside_multiples_of_a_quarter_turn_lose_no_digits) {
