@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/topology/check_values.h"
+#include "core/topology/flexible_beam.h"
 #include "core/topology/nearest_name.h"
 
 namespace linkstudy {
@@ -26,6 +27,7 @@ class Checker {
     check_names("closure", linkage_.closures);
     check_names("load", linkage_.loads);
     check_link_values();
+    check_element_names();
     check_joints();
     check_tree();
     check_closures();
@@ -95,6 +97,30 @@ class Checker {
   void check_link_values() {
     for (std::size_t i = 0; i < linkage_.links.size(); ++i) {
       check_link(linkage_.links[i], path_of("link", linkage_.links, i), problems_);
+    }
+  }
+
+  // What a flexible link becomes has names of its own.
+  void check_element_names() {
+    for (const Link& link : linkage_.links) {
+      if (!link.flexible) continue;
+      const int segments = link.flexible->segments;
+      report_names_of(link.name, "link", linkage_.links, 0, segments, element_name);
+      report_names_of(link.name, "joint", linkage_.joints, 1, segments, element_joint_name);
+    }
+  }
+
+  template <class Record, class Naming>
+  void report_names_of(const std::string& flexible, const std::string& kind,
+                       const std::vector<Record>& records, int first, int last, Naming name_of) {
+    for (std::size_t i = 0; i < records.size(); ++i) {
+      for (int k = first; k <= last; ++k) {
+        if (records[i].name != name_of(flexible, k)) continue;
+        report(kind + "." + std::to_string(i) + ".name",
+               kind + ": the name " + quoted(records[i].name) +
+                   " is that of a part of the flexible link " + quoted(flexible),
+               "give the " + kind + " another name");
+      }
     }
   }
 

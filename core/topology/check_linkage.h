@@ -2,7 +2,8 @@
 // references exist, every link the child of exactly one joint, no loop in the tree and no link
 // unreachable from ground, masses positive, inertias those of a body (positive definite, triangle
 // inequality of the principal moments), rotations proper (orthonormal to 1e-6, determinant +1),
-// coordinate counts, closure types, loads that name an existing joint coordinate.
+// coordinate counts, closure types, loads that name an existing joint coordinate, laws of contact
+// and friction, flexible links that are uniform beams and whose parts take nobody's name.
 // All problems in one pass; a problem is not reported again through its consequences.
 #pragma once
 

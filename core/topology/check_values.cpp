@@ -3,75 +3,34 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <cmath>
-#include <cstdio>
+
+#include "core/topology/check_contact.h"
+#include "core/topology/check_flexible.h"
+#include "core/topology/record_check.h"
 
 namespace linkstudy {
 namespace {
 
 constexpr double kRotationTolerance = 1.0e-6;
-constexpr double kUnitTolerance = 1.0e-6;
 constexpr double kTriangleTolerance = 1.0e-3;
 constexpr unsigned kTranslations = 1u << kX | 1u << kY | 1u << kZ;
 
-std::string text_of(double value) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%.9g", value);
-  return buffer;
+// Nothing, or one entry for each coordinate.
+void require_count(const std::string& key, std::size_t count, std::size_t expected,
+                   RecordCheck& record) {
+  if (count == 0 || count == expected) return;
+  record.report(key,
+                key + " must have " + std::to_string(expected) +
+                    (expected == 1 ? " entry" : " entries") + " for this joint, got " +
+                    std::to_string(count),
+                expected == 0 ? "leave it out" : "give one entry for each coordinate");
 }
 
-// Collects the problems of one record: its path, and its title such as "joint 'A'".
-struct Record {
-  std::string path;
-  std::string title;
-  std::vector<Problem>& problems;
-
-  void report(const std::string& key, const std::string& message, const std::string& remedy) {
-    problems.push_back({path + "." + key, title + ": " + message, remedy});
-  }
-  void require_positive(const std::string& key, double value) {
-    if (std::isfinite(value) && value > 0.0) return;
-    report(key, key + " must be positive, got " + text_of(value), "give a number above 0");
-  }
-  void require_not_negative(const std::string& key, double value) {
-    if (std::isfinite(value) && value >= 0.0) return;
-    report(key, key + " must not be negative, got " + text_of(value), "give 0 or more");
-  }
-  void require_finite(const std::string& key, bool finite) {
-    if (!finite) report(key, key + " must be finite", "replace NaN and infinity by numbers");
-  }
-  void require_unit(const std::string& key, double norm) {
-    if (std::abs(norm - 1.0) <= kUnitTolerance) return;
-    report(key, key + " must have length 1, got length " + text_of(norm), "normalise it");
-  }
-  void require_frame(const std::string& key, const Frame& frame) {
-    require_finite(key + ".position", frame.position.allFinite());
-    const std::string fault = rotation_fault(frame.rotation);
-    if (!fault.empty()) {
-      report(key + ".rotation", key + ".rotation " + fault,
-             "columns are the axes of the frame: right-handed, of length 1, perpendicular");
-    }
-  }
-};
-
-bool all_finite(const std::vector<double>& values) {
-  for (const double value : values) {
-    if (!std::isfinite(value)) return false;
-  }
-  return true;
-}
-
-void check_start(const Joint& joint, Record& record) {
+void check_start(const Joint& joint, RecordCheck& record) {
   const auto nq = static_cast<std::size_t>(position_count(joint.type, joint.coordinates));
   const auto nv = static_cast<std::size_t>(velocity_count(joint.type));
-  const auto require_count = [&](const char* key, std::size_t count, std::size_t expected) {
-    if (count == 0 || count == expected) return;
-    record.report(key,
-                  std::string(key) + " must have " + std::to_string(expected) +
-                      " entries for this joint, got " + std::to_string(count),
-                  "give one entry for each coordinate");
-  };
-  require_count("initial.position", joint.position.size(), nq);
-  require_count("initial.velocity", joint.velocity.size(), nv);
+  require_count("initial.position", joint.position.size(), nq, record);
+  require_count("initial.velocity", joint.velocity.size(), nv, record);
   record.require_finite("initial.position", all_finite(joint.position));
   record.require_finite("initial.velocity", all_finite(joint.velocity));
   if (nq == nv || joint.position.size() != nq) return;
@@ -79,9 +38,30 @@ void check_start(const Joint& joint, Record& record) {
   record.require_unit("initial.position", quaternion.norm());
 }
 
+void check_spring(const Joint& joint, RecordCheck& record) {
+  if (joint.stiffness.empty() && joint.damping.empty() && joint.rest.empty()) return;
+  const int nv = velocity_count(joint.type);
+  if (position_count(joint.type, joint.coordinates) != nv) {
+    record.report("spring", "a spring acts on coordinates, which a quaternion has not",
+                  "use coordinates = \"zyx\"");
+    return;
+  }
+  const auto check_entries = [&](const std::string& key, const std::vector<double>& values) {
+    require_count(key, values.size(), static_cast<std::size_t>(nv), record);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const std::string entry = values.size() > 1 ? key + "." + std::to_string(i) : key;
+      record.require_not_negative(entry, values[i]);
+    }
+  };
+  check_entries("spring.stiffness", joint.stiffness);
+  check_entries("spring.damping", joint.damping);
+  require_count("spring.rest", joint.rest.size(), static_cast<std::size_t>(nv), record);
+  record.require_finite("spring.rest", all_finite(joint.rest));
+}
+
 // Directions that a closure leaves free turn with its first end. Elements along ground axes can
 // stand for that only if they hold every translation alike.
-void check_axes(const Closure& closure, Record& record) {
+void check_axes(const Closure& closure, RecordCheck& record) {
   const Sde& sde = closure.sde;
   const auto alike = [](const std::array<double, kDirections>& a) {
     return a[kX] == a[kY] && a[kY] == a[kZ];
@@ -95,7 +75,7 @@ void check_axes(const Closure& closure, Record& record) {
                 "use axes = \"first\", or stiffness (and damping) alike along x, y and z");
 }
 
-void check_sde(const Closure& closure, Record& record) {
+void check_sde(const Closure& closure, RecordCheck& record) {
   static constexpr const char* kNames[kDirections] = {"x", "y", "z", "phi", "theta", "psi"};
   const Sde& sde = closure.sde;
   bool any = false;
@@ -125,7 +105,7 @@ void check_sde(const Closure& closure, Record& record) {
   }
 }
 
-void check_table(const Course& course, Record& record) {
+void check_table(const Course& course, RecordCheck& record) {
   if (course.times.empty() || course.times.size() != course.values.size()) {
     record.report("course.values",
                   "course.times and course.values must have the same length, got " +
@@ -178,18 +158,20 @@ std::string rotation_fault(const Eigen::Matrix3d& rotation) {
 }
 
 void check_link(const Link& link, const std::string& path, std::vector<Problem>& problems) {
-  Record record{path, "link '" + link.name + "'", problems};
+  RecordCheck record{path, "link '" + link.name + "'", problems};
   record.require_positive("mass", link.mass);
   record.require_finite("center_of_mass", link.center_of_mass.allFinite());
   const std::string fault = inertia_fault(link.inertia);
-  if (fault.empty()) return;
-  record.report("inertia", "inertia " + fault,
-                "give moments about the centre of mass; a thin rod or a point mass needs small "
-                "positive ones");
+  if (!fault.empty()) {
+    record.report("inertia", "inertia " + fault,
+                  "give moments about the centre of mass; a thin rod or a point mass needs small "
+                  "positive ones");
+  }
+  if (link.flexible) check_flexible(link, path, problems);
 }
 
 void check_joint(const Joint& joint, const std::string& path, std::vector<Problem>& problems) {
-  Record record{path, "joint '" + joint.name + "'", problems};
+  RecordCheck record{path, "joint '" + joint.name + "'", problems};
   record.require_frame("frame", joint.frame);
   record.require_frame("child_frame", joint.child_frame);
   const bool advances = std::isfinite(joint.pitch) && joint.pitch != 0.0;
@@ -198,11 +180,13 @@ void check_joint(const Joint& joint, const std::string& path, std::vector<Proble
                   "give the advance per turn, or use a revolute joint");
   }
   check_start(joint, record);
+  check_spring(joint, record);
+  if (joint.friction) check_joint_friction(joint, record);
 }
 
 void check_closure(const Closure& closure, const std::string& path,
                    std::vector<Problem>& problems) {
-  Record record{path, "closure '" + closure.name + "'", problems};
+  RecordCheck record{path, "closure '" + closure.name + "'", problems};
   if (blocked_directions(closure.type) == 0) {
     const bool is_free = closure.type == JointType::free;
     record.report("type",
@@ -211,17 +195,14 @@ void check_closure(const Closure& closure, const std::string& path,
   }
   record.require_frame("first", closure.first.frame);
   record.require_frame("second", closure.second.frame);
-  if (closure.model == ClosureModel::clearance) {
-    record.report("model", "model = \"clearance\" is not supported in this version",
-                  "use model = \"cut\" or \"sde\"");
-  }
   record.require_not_negative("cut.alpha", closure.alpha);
   record.require_not_negative("cut.beta", closure.beta);
   if (closure.model == ClosureModel::sde) check_sde(closure, record);
+  if (closure.model == ClosureModel::clearance) check_clearance(closure, record);
 }
 
 void check_load(const Load& load, const std::string& path, std::vector<Problem>& problems) {
-  Record record{path, "load '" + load.name + "'", problems};
+  RecordCheck record{path, "load '" + load.name + "'", problems};
   if (load.type == LoadType::resistance) {
     record.require_positive("law.at_speed", load.law.at_speed);
     record.require_finite("law.value", std::isfinite(load.law.value));

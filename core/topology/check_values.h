@@ -1,5 +1,6 @@
 // Checks that need one record only: numbers finite and in range, inertia of a body, proper
-// rotations, counts of coordinates, courses and laws. Part of check(Linkage).
+// rotations, counts of coordinates, springs, friction, clearance, flexible beams, courses and laws.
+// Part of check(Linkage).
 #pragma once
 
 #include <string>

@@ -263,12 +263,33 @@ TEST(Check, A_sliding_element_turns_with_its_first_end_unless_it_holds_all_direc
   EXPECT_THAT(paths(linkage), IsEmpty());
 }
 
-TEST(Check, Clearance_is_not_supported_and_says_where_it_was_asked_for) {
+TEST(Check, A_spring_of_a_joint_has_an_entry_for_each_coordinate_and_is_nowhere_negative) {
   Linkage linkage = make_tree();
-  linkage.closures = {make_closure("b", "d")};
-  linkage.closures[0].model = ClosureModel::clearance;
-  EXPECT_THAT(paths(linkage), ElementsAre("closure.S.model"));
-  EXPECT_THAT(only_message(linkage), HasSubstr("not supported in this version"));
+  Joint& a = linkage.joints[0];
+  a.stiffness = {1.0};
+  a.damping = {0.0};
+  a.rest = {-2.0};
+  EXPECT_THAT(paths(linkage), IsEmpty());
+  a.stiffness = {-1.0};
+  a.damping = {std::nan("")};
+  a.rest = {std::numeric_limits<double>::infinity()};
+  EXPECT_THAT(paths(linkage), ElementsAre("joint.A.spring.stiffness", "joint.A.spring.damping",
+                                          "joint.A.spring.rest"));
+  a.stiffness = a.damping = a.rest = {1.0, 2.0};
+  EXPECT_THAT(paths(linkage), ElementsAre("joint.A.spring.stiffness", "joint.A.spring.damping",
+                                          "joint.A.spring.rest"));
+}
+
+TEST(Check, A_spring_of_a_ball_acts_on_angles_and_not_on_a_quaternion) {
+  Linkage linkage = make_tree();
+  Joint& a = linkage.joints[0];
+  a.type = JointType::spherical;
+  a.stiffness = {1.0, 2.0, -3.0};
+  EXPECT_THAT(paths(linkage), ElementsAre("joint.A.spring.stiffness.2"));
+  a.stiffness[2] = 3.0;
+  EXPECT_THAT(paths(linkage), IsEmpty());
+  a.coordinates = RotationCoordinates::quaternion;
+  EXPECT_THAT(paths(linkage), ElementsAre("joint.A.spring"));
 }
 
 TEST(Check, Loads_name_an_existing_coordinate_or_link) {
