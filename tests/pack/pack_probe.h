@@ -14,6 +14,12 @@ struct PackResults {
   bool below, equal, finite;
 };
 
+// Of a contact at depth a, with rate b and exponent 1.7; of a bristle bent by a, sliding at c; of a
+// body at -|a|, |b| and then c, b.
+struct LawResults {
+  double normal, mu, z_rate, crossing;
+};
+
 // As many operands and results as there are lanes; bits: of a < b.
 using ApplyPack = void (*)(const PackOperands* in, PackResults* out, unsigned* bits);
 
@@ -23,5 +29,14 @@ void apply_avx2_one(const PackOperands* in, PackResults* out, unsigned* bits);
 void apply_avx2_all(const PackOperands* in, PackResults* out, unsigned* bits);
 void apply_avx512_one(const PackOperands* in, PackResults* out, unsigned* bits);
 void apply_avx512_all(const PackOperands* in, PackResults* out, unsigned* bits);
+
+using ApplyLaws = void (*)(const PackOperands* in, LawResults* out);
+
+void laws_baseline_one(const PackOperands* in, LawResults* out);
+void laws_baseline_all(const PackOperands* in, LawResults* out);
+void laws_avx2_one(const PackOperands* in, LawResults* out);
+void laws_avx2_all(const PackOperands* in, LawResults* out);
+void laws_avx512_one(const PackOperands* in, LawResults* out);
+void laws_avx512_all(const PackOperands* in, LawResults* out);
 
 }  // namespace linkstudy::testing

@@ -8,7 +8,7 @@
 
 #include "core/base/elementary.h"
 #include "core/base/isa.h"
-#include "tests/pack/pack_probe.h"
+#include "tests/pack/pack_probe_impl.h"
 #include "tests/support/random.h"
 
 namespace linkstudy::testing {
@@ -18,16 +18,17 @@ struct Probe {
   InstructionSet isa;
   int lanes;
   ApplyPack apply;
+  ApplyLaws laws;
 };
 
 std::vector<Probe> probes() {
   std::vector<Probe> found;
-  for (const Probe& p : {Probe{InstructionSet::baseline, 1, apply_baseline_one},
-                         Probe{InstructionSet::baseline, 2, apply_baseline_all},
-                         Probe{InstructionSet::avx2, 1, apply_avx2_one},
-                         Probe{InstructionSet::avx2, 4, apply_avx2_all},
-                         Probe{InstructionSet::avx512, 1, apply_avx512_one},
-                         Probe{InstructionSet::avx512, 8, apply_avx512_all}}) {
+  for (const Probe& p : {Probe{InstructionSet::baseline, 1, apply_baseline_one, laws_baseline_one},
+                         Probe{InstructionSet::baseline, 2, apply_baseline_all, laws_baseline_all},
+                         Probe{InstructionSet::avx2, 1, apply_avx2_one, laws_avx2_one},
+                         Probe{InstructionSet::avx2, 4, apply_avx2_all, laws_avx2_all},
+                         Probe{InstructionSet::avx512, 1, apply_avx512_one, laws_avx512_one},
+                         Probe{InstructionSet::avx512, 8, apply_avx512_all, laws_avx512_all}}) {
     if (machine_has(p.isa)) found.push_back(p);
   }
   return found;
@@ -201,6 +202,27 @@ TEST(Pack, Sets_with_fused_instructions_agree_on_every_bit_of_elementary_functio
       ASSERT_TRUE(same(wide[i].sine, one.sine));
       ASSERT_TRUE(same(wide[i].exponential, one.exponential));
       ASSERT_TRUE(same(wide[i].logarithm, one.logarithm));
+    }
+  }
+}
+
+TEST(Pack, Laws_of_contact_and_friction_give_in_every_lane_what_they_give_a_double) {
+  for (const Probe& p : probes()) {
+    SCOPED_TRACE(std::string(name_of(p.isa)) + ", lanes " + std::to_string(p.lanes));
+    Random random(19);
+    for (int n = 0; n < 2000; ++n) {
+      std::vector<PackOperands> in(static_cast<std::size_t>(p.lanes));
+      std::vector<LawResults> out(in.size());
+      for (PackOperands& o : in) o = {random.within(1e-2), random.within(1.0), random.within(1.0)};
+      p.laws(in.data(), out.data());
+      for (std::size_t i = 0; i < in.size(); ++i) {
+        const LawValues<double> x = law_values(in[i].a, in[i].b, in[i].c);
+        EXPECT_NEAR(out[i].normal, x.normal, 1e-13 * x.normal);
+        EXPECT_NEAR(out[i].mu, x.mu, 1e-12);  // of terms of size 24
+        EXPECT_NEAR(out[i].z_rate, x.z_rate, 1e-13);
+        EXPECT_NEAR(out[i].crossing, x.crossing, 1e-13);
+      }
+      if (HasFailure()) return;
     }
   }
 }

@@ -247,6 +247,7 @@ TEST(NormalContact, The_speed_at_the_crossing_is_a_number_whatever_the_states) {
   EXPECT_EQ(crossing_speed(0.0, 0.7, 0.0, 0.9), 0.7);     // on the wall already
   EXPECT_EQ(crossing_speed(1e-3, -0.7, 2e-3, 0.9), 0.7);  // inside already
   EXPECT_EQ(crossing_speed(-1e-3, 0.7, -1e-3, 0.9), 0.7);
+  EXPECT_NEAR(crossing_speed(-1.0, 0.3, -0.2, 0.6), 0.6, 1e-15);  // not there yet
   EXPECT_EQ(crossing_speed(-1.0, 0.0, 1e-9, 2.0), crossing_speed(-1.0, 0.0, 1e-9, -2.0));
   EXPECT_GE(crossing_speed(-1e-9, 1.0, 1e-3, 0.0), 0.0);
   EXPECT_GE(crossing_speed(-1e-300, 0.0, 1e-300, 0.0), 0.0);
