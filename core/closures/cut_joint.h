@@ -141,13 +141,19 @@ inline void subtract_constraint_forces(const M& m, const Workspace<Real, M>& w, 
   });
 }
 
-// Multipliers for L^-T tau in Workspace::y; leaves L^-T (tau - J^T lambda) there.
+// What does not depend on forces: rows and the factor of A.
 template <class M, class Real>
-inline void solve_cut_joints(const M& m, const Parameters<Real>& p, Workspace<Real, M>& w) {
+inline void update_cut_joints(const M& m, const Parameters<Real>& p, Workspace<Real, M>& w) {
   if (m.cut_rows.empty()) return;
   update_rows<ClosureModel::cut>(m, p, w);
   update_constraint_factor(m, p, w);
   update_schur_complement(m, p, w);
+}
+
+// Multipliers for L^-T tau in Workspace::y; leaves L^-T (tau - J^T lambda) there.
+template <class M, class Real>
+inline void solve_cut_joints(const M& m, const Parameters<Real>& p, Workspace<Real, M>& w) {
+  if (m.cut_rows.empty()) return;
   for_range(Index<0>(), cut_row_count(m), [&](auto r) {
     const RowState<Real>& row = at(w.cut_rows, r);
     const ClosureParameters<Real>& n = at(p.closures, closure_of(m, r));

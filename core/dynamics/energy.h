@@ -1,5 +1,6 @@
 // Energies of a linkage after `evaluate`. Kinetic: of the bodies. Potential: gravity -m g . p_C
-// (zero at the ground origin) and sdes 1/2 c d^2 ([Urbas16] eq. (5)). Ledger:
+// (zero at the ground origin), sdes 1/2 c d^2 ([Urbas16] eq. (5)), springs in joints, and
+// K delta^(n+1) / (n+1) of contacts. Ledger:
 //   kinetic + potential - (the same at the start) = supplied - dissipated + residual.
 #pragma once
 
@@ -13,13 +14,13 @@ template <class Real>
 struct Energy {
   Real kinetic;  // J
   Real height;   // potential energy of weight, J
-  Real elastic;  // of replacement joints, J
+  Real elastic;  // of replacement joints, springs in joints, and contacts, J
 
   Real potential() const { return height + elastic; }
 };
 
 template <class M, class Real>
-inline Energy<Real> compute_energy(const M& m, const Parameters<Real>& p,
+inline Energy<Real> compute_energy(const M& m, const Parameters<Real>& p, const Real* q,
                                    const Workspace<Real, M>& w) {
   Energy<Real> e{Real(0.0), Real(0.0), Real(0.0)};
   for_bodies(m, [&](auto b) {
@@ -34,6 +35,16 @@ inline Energy<Real> compute_energy(const M& m, const Parameters<Real>& p,
   for_range(Index<0>(), sde_row_count(m), [&](auto i) {
     const Real d = at(w.sde_rows, i).d;
     e.elastic = madd(Real(0.5) * at(p.springs, i).stiffness * d, d, e.elastic);
+  });
+  for_joint_springs(m, [&](auto i) {
+    const JointSpringParameters<Real>& n = at(p.joint_springs, i);
+    const Real d = q[at(m.joint_springs, i).q] - n.rest;
+    e.elastic = madd(Real(0.5) * n.stiffness * d, d, e.elastic);
+  });
+  for_all_contacts(m, [&](auto i) {
+    const ContactState<Real>& s = at(w.contacts, i);
+    const ClearanceParameters<Real>& n = at(p.clearances, at(m.contacts, i).clearance);
+    e.elastic = e.elastic + contact_energy(n.contact, s.depth, s.elastic);
   });
   return e;
 }

@@ -1,11 +1,14 @@
 #include "core/dynamics/motion.h"
 
+#include <algorithm>
+
 #include "core/dynamics/equations_of_motion.h"
 
 namespace linkstudy {
 
 void compute_motion(const Mechanism& m, const Parameters<double>& p, const State<double>& s,
                     Workspace<double>& w) {
+  std::copy(s.z.begin(), s.z.end(), w.z.begin());
   evaluate(m, p, s.t, s.q.data(), s.v.data(), w);
 }
 

@@ -38,10 +38,7 @@ inline void add_joint_accelerations(const M& m, const Parameters<Real>& p,
 
 // Scratch and result of `update_reactions`.
 template <class Real, class M = Mechanism>
-struct Reactions {
-  Array<BodyState<Real>, Counts<M>::bodies> moving;  // (nb) bodies with their true accelerations
-  Array<Wrench<Real>, Counts<M>::bodies> on_child;  // (nb), [0] the sum on ground, about its origin
-};
+using Reactions = ReactionState<Real, Counts<M>::bodies>;
 
 template <class Real, class M>
 inline Reactions<Real, M> make_reactions(const M& m) {
@@ -54,9 +51,9 @@ inline Reactions<Real, M> make_reactions(const M& m) {
 }
 
 // What moves a body, less what acts on it beside joints.
-template <class M, class Real>
+template <class M, class Real, class R>
 inline void sum_free_body_wrenches(const M& m, const Parameters<Real>& p,
-                                   const Workspace<Real, M>& w, Reactions<Real, M>& r) {
+                                   const Workspace<Real, M>& w, R& r) {
   r.moving = w.bodies;
   at(r.on_child, 0) = {zero3<Real>(), zero3<Real>()};
   for_bodies(m, [&](auto b) {
@@ -76,14 +73,17 @@ inline void sum_free_body_wrenches(const M& m, const Parameters<Real>& p,
     const ClosureStructure& c = at(m.closures, i);
     subtract_closure_forces(c, at(w.closures, i), w.bodies.data(), at(r.on_child, c.first),
                             at(r.on_child, c.second));
+    if (c.model != ClosureModel::clearance) return;
+    subtract_contact_forces(c, at(w.closures, i), w.bodies.data(), at(r.on_child, c.first),
+                            at(r.on_child, c.second));
   };
   for_closures<ClosureModel::cut>(m, subtract);
   for_closures<ClosureModel::sde>(m, subtract);
 }
 
-template <class M, class Real>
+template <class M, class Real, class R>
 inline void update_reactions(const M& m, const Parameters<Real>& p, const Workspace<Real, M>& w,
-                             Reactions<Real, M>& r) {
+                             R& r) {
   sum_free_body_wrenches(m, p, w, r);
   for_bodies_inwards(m, [&](auto b) {
     const auto parent = parent_of(m, b);

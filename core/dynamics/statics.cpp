@@ -116,6 +116,9 @@ double rounding_floor(const Model& model, const State<double>& s) {
     const bool turns = model.mechanism.sde_rows[r].kind == RowKind::rotation;
     largest = std::max(largest, model.parameters.springs[r].stiffness * (turns ? 1.0 : reach));
   }
+  for (const JointSpringParameters<double>& spring : model.parameters.joint_springs) {
+    largest = std::max(largest, spring.stiffness * std::max(1.0, std::abs(spring.rest)));
+  }
   return 8.0 * std::numeric_limits<double>::epsilon() * largest;
 }
 

@@ -3,7 +3,7 @@
 // powers of drives and of dissipation are summed.
 #pragma once
 
-#include "core/kinematics/closure_kinematics.h"
+#include "core/forces/contact_forces.h"
 #include "core/laws/course.h"
 
 namespace linkstudy {
@@ -73,6 +73,20 @@ inline void add_loads(const M& m, const Parameters<Real>& p, double t, const Rea
   });
 }
 
+// Springs and dampers of tree joints, such as the sdes of a flexible link ([AugUrb18] sec. 3):
+// tau = -c (q - rest) - b v.
+template <class M, class Real>
+inline void add_joint_springs(const M& m, const Parameters<Real>& p, const Real* q, const Real* v,
+                              Workspace<Real, M>& w) {
+  for_joint_springs(m, [&](auto i) {
+    const JointSpring& s = at(m.joint_springs, i);
+    const JointSpringParameters<Real>& n = at(p.joint_springs, i);
+    const Real damping = n.damping * v[s.v];
+    at(w.tau, s.v) = at(w.tau, s.v) - madd(n.stiffness, q[s.q] - n.rest, damping);
+    w.dissipated_power = madd(damping, v[s.v], w.dissipated_power);
+  });
+}
+
 // Spring-damping elements: f = c d + b d_dot along each row, on chain 1 ([Urbas16] eqs. (5), (14)).
 template <class M, class Real>
 inline void add_sdes(const M& m, const Parameters<Real>& p, Workspace<Real, M>& w) {
@@ -95,13 +109,15 @@ inline void add_sdes(const M& m, const Parameters<Real>& p, Workspace<Real, M>& 
 
 // Precondition: BodyState::wrench holds the inertial wrenches; the forces are taken off them.
 template <class M, class Real>
-inline void update_applied_forces(const M& m, const Parameters<Real>& p, double t, const Real* v,
-                                  Workspace<Real, M>& w) {
+inline void update_applied_forces(const M& m, const Parameters<Real>& p, double t, const Real* q,
+                                  const Real* v, Workspace<Real, M>& w) {
   for_velocities(m, [&](auto k) { at(w.tau, k) = Real(0.0); });
   w.supplied_power = Real(0.0);
   w.dissipated_power = Real(0.0);
   add_loads(m, p, t, v, w);
+  add_joint_springs(m, p, q, v, w);
   add_sdes(m, p, w);
+  add_contacts(m, p, w);
 }
 
 }  // namespace linkstudy

@@ -226,6 +226,17 @@ inline void sum_row_forces(const M& m, Workspace<Real, M>& w) {
   });
 }
 
+// Adds the forces of a clearance's contacts, times -1, to the wrenches that the bodies need.
+template <class Real>
+inline void subtract_contact_forces(const ClosureStructure& c, const ClosureState<Real>& x,
+                                    const BodyState<Real>* bodies, Wrench<Real>& first,
+                                    Wrench<Real>& second) {
+  subtract_force(first, x.arm_1, x.contact_force);
+  add_force(second, x.p1 - bodies[c.second].p, x.contact_force);
+  first.moment = first.moment - x.contact_moment;
+  second.moment = second.moment + x.contact_moment;
+}
+
 // Adds the closure's forces, times -1, to the wrenches that the bodies need: +f on the first body,
 // -f on the second.
 template <class Real>

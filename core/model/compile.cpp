@@ -134,6 +134,12 @@ VelocityKind velocity_kind(BasicMotion motion) {
   return is_rotation(motion) ? VelocityKind::rotation : VelocityKind::translation;
 }
 
+double contact_stiffness(const Clearance& c) {
+  if (c.stiffness) return *c.stiffness;
+  return hertz_stiffness({c.bearing.young, c.bearing.poisson, c.bearing_radius},
+                         {c.journal.young, c.journal.poisson, c.bearing_radius - c.radial});
+}
+
 bool starts_with_ground_axes(const std::vector<Row>& rows, const ClosureStructure& c) {
   if (c.row_end - c.row_begin < 3) return false;
   for (int i = 0; i < 3; ++i) {
@@ -181,6 +187,8 @@ class Compiler {
     body.frame = shape_of(frame.rotation, body.quarter);
     body.offset = shape_of(frame.position);
     add_stages(joint, index, body);
+    add_joint_springs(joint, body);
+    if (joint.friction) add_joint_friction(*joint.friction, joint.type, index, body);
     find_motion(body);
 
     const Eigen::Vector3d center = link_frame.rotation * link.center_of_mass + link_frame.position;
@@ -225,6 +233,41 @@ class Compiler {
       if (joint.hold) model_.held.push_back(k);
     }
     add_start(joint, body);
+  }
+
+  void add_joint_springs(const Joint& joint, const Body& body) {
+    const auto value = [](const std::vector<double>& list, std::size_t i) {
+      return i < list.size() ? list[i] : 0.0;
+    };
+    for (int i = 0; i < body.v_count; ++i) {
+      const auto n = static_cast<std::size_t>(i);
+      const double stiffness = value(joint.stiffness, n), damping = value(joint.damping, n);
+      if (stiffness == 0.0 && damping == 0.0) continue;
+      mechanism().joint_springs.push_back({body.q_begin + i, body.v_begin + i});
+      parameters().joint_springs.push_back({stiffness, damping, value(joint.rest, n)});
+    }
+  }
+
+  static LugreParameters<double> law_of(const Friction& f) {
+    return {f.mu_s, f.mu_k, f.v_s, f.sigma0, f.sigma1, f.sigma2, f.v_d};
+  }
+
+  int add_bristles(int count) {
+    Mechanism& m = mechanism();
+    const int first = m.nz;
+    m.nz += count;
+    model_.start.z.resize(static_cast<std::size_t>(m.nz), 0.0);
+    return first;
+  }
+
+  void add_joint_friction(const JointFriction& f, JointType type, int index, const Body& body) {
+    JointFrictionStructure s{.body = index, .z = add_bristles(body.v_count)};
+    if (type != JointType::prismatic) s.turn = body.v_begin;
+    if (type != JointType::revolute) s.slide = body.v_begin + body.v_count - 1;
+    mechanism().frictions.push_back(s);
+    const auto inverse = [](double x) { return x > 0.0 ? 1.0 / x : 0.0; };
+    parameters().frictions.push_back(
+        {law_of(f.law), f.radius, inverse(f.length), inverse(f.radius), f.preload});
   }
 
   // What can move at all; the rules are those of joint_kinematics `spin` and `shift`.
@@ -275,7 +318,7 @@ class Compiler {
     c.second = body_of_.at(closure.second.link);
     c.model = closure.model;
     c.stabilization = closure.stabilization;
-    const bool cut = closure.model == ClosureModel::cut;
+    const bool cut = closure.model != ClosureModel::sde;
     std::vector<Row>& rows = cut ? m.cut_rows : m.sde_rows;
     c.row_begin = static_cast<int>(rows.size());
     if (cut) {
@@ -295,6 +338,10 @@ class Compiler {
                        kind == RowKind::translation_first || kind == RowKind::spring_first;
     }
     c.point_rows = starts_with_ground_axes(rows, c);
+    if (c.model == ClosureModel::clearance) {
+      c.needs_frames = true;
+      add_clearance(closure.clearance, index);
+    }
     m.closure_names.push_back(closure.name);
 
     const Frame f1 = link_frames_[static_cast<std::size_t>(c.first)] * closure.first.frame;
@@ -309,8 +356,39 @@ class Compiler {
          baumgarte ? closure.beta * closure.beta : 0.0});
   }
 
+  void add_clearance(const Clearance& c, int closure) {
+    Mechanism& m = mechanism();
+    const int index = static_cast<int>(m.clearances.size());
+    const int first = static_cast<int>(m.contacts.size());
+    const bool spatial = c.kind == ClearanceKind::spatial;
+    for (double side : spatial ? std::vector{-0.5, 0.5} : std::vector{0.0}) {
+      m.contacts.push_back({index, side, c.friction ? add_bristles(1) : -1});
+    }
+    m.clearances.push_back({closure, c.bearing_is_first, c.exponent == 1.5, c.free_bristle, first,
+                            static_cast<int>(m.contacts.size())});
+    const double stiffness = contact_stiffness(c) * (spatial ? 0.5 : 1.0);
+    const Friction friction = c.friction.value_or(Friction{});
+    const double relaxation =
+        c.free_bristle == FreeBristle::relax ? friction.sigma0 / friction.sigma1 : 0.0;
+    parameters().clearances.push_back(
+        {c.radial,
+         c.bearing_radius,
+         c.length,
+         {stiffness, c.exponent, contact_damping(c.law, c.restitution), c.least_speed},
+         law_of(friction),
+         relaxation});
+  }
+
+  // Directions held by multipliers: a clearance leaves the axial motion blocked, a planar one the
+  // tilts too.
+  static unsigned held_directions(const Closure& closure) {
+    if (closure.model != ClosureModel::clearance) return blocked_directions(closure.type);
+    const bool planar = closure.clearance.kind == ClearanceKind::planar;
+    return planar ? 1u << kX | 1u << kTheta | 1u << kPsi : 1u << kX;
+  }
+
   void add_cut_rows(const Closure& closure, int index) {
-    const unsigned blocked = blocked_directions(closure.type);
+    const unsigned blocked = held_directions(closure);
     const unsigned translations = blocked & 7u;
     const RowKind kind =
         translations == 7u ? RowKind::translation_ground : RowKind::translation_first;
@@ -458,6 +536,19 @@ auto key(const ClosureStructure& c) {
   return std::tuple(c.first, c.second, c.model, c.stabilization, c.row_begin, c.row_end, c.point_1,
                     c.point_2);
 }
+auto key(const JointSpring& s) {
+  return std::tuple(s.q, s.v);
+}
+auto key(const ClearanceStructure& c) {
+  return std::tuple(c.closure, c.bearing_first, c.hertz, c.free_bristle, c.contact_begin,
+                    c.contact_end);
+}
+auto key(const ContactStructure& c) {
+  return std::tuple(c.clearance, c.side, c.z);
+}
+auto key(const JointFrictionStructure& f) {
+  return std::tuple(f.body, f.turn, f.slide, f.z);
+}
 auto key(const LoadStructure& l) {
   return std::tuple(l.type, l.v, l.body, l.follows_link, l.course, l.law, l.table_begin,
                     l.table_end);
@@ -473,7 +564,9 @@ bool same(const std::vector<T>& a, const std::vector<T>& b) {
 
 bool same_structure(const Mechanism& a, const Mechanism& b) {
   return same(a.bodies, b.bodies) && same(a.stages, b.stages) && same(a.closures, b.closures) &&
-         same(a.cut_rows, b.cut_rows) && same(a.sde_rows, b.sde_rows) && same(a.loads, b.loads);
+         same(a.cut_rows, b.cut_rows) && same(a.sde_rows, b.sde_rows) && same(a.loads, b.loads) &&
+         same(a.joint_springs, b.joint_springs) && same(a.clearances, b.clearances) &&
+         same(a.contacts, b.contacts) && same(a.frictions, b.frictions);
 }
 
 }  // namespace linkstudy

@@ -10,7 +10,7 @@ class Writer {
  public:
   std::string run(const Mechanism& m, const std::string& name) {
     out_ << "struct " << name << " {\n  static constexpr int nq = " << m.nq << ", nv = " << m.nv
-         << ";\n";
+         << ", nz = " << m.nz << ";\n";
     list("Body", "bodies", m.bodies);
     list("Stage", "stages", m.stages);
     list("int", "v_parent", m.v_parent);
@@ -21,6 +21,10 @@ class Writer {
     list("Row", "sde_rows", m.sde_rows);
     list("int", "support", m.support);
     list("LoadStructure", "loads", m.loads);
+    list("JointSpring", "joint_springs", m.joint_springs);
+    list("ClearanceStructure", "clearances", m.clearances);
+    list("ContactStructure", "contacts", m.contacts);
+    list("JointFrictionStructure", "frictions", m.frictions);
     out_ << "  static constexpr bool projects = " << (m.projects ? "true" : "false") << ";\n};\n";
     return out_.str();
   }
@@ -66,6 +70,7 @@ class Writer {
   void write(LoadType x) { enumerator("LoadType", x); }
   void write(CourseShape x) { enumerator("CourseShape", x); }
   void write(ResistanceShape x) { enumerator("ResistanceShape", x); }
+  void write(FreeBristle x) { enumerator("FreeBristle", x); }
   template <class T>
   void write(const std::array<T, 3>& a) {
     out_ << "{";
@@ -89,6 +94,13 @@ class Writer {
   void write(const LoadStructure& l) {
     braced(l.type, l.v, l.body, l.follows_link, l.course, l.law, l.table_begin, l.table_end);
   }
+
+  void write(const JointSpring& s) { braced(s.q, s.v); }
+  void write(const ClearanceStructure& c) {
+    braced(c.closure, c.bearing_first, c.hertz, c.free_bristle, c.contact_begin, c.contact_end);
+  }
+  void write(const ContactStructure& c) { braced(c.clearance, c.side, c.z); }
+  void write(const JointFrictionStructure& f) { braced(f.body, f.turn, f.slide, f.z); }
 
   std::ostringstream out_;
 };

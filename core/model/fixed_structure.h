@@ -30,6 +30,11 @@ Mechanism to_mechanism() {
   m.sde_rows = list(M::sde_rows);
   m.support = list(M::support);
   m.loads = list(M::loads);
+  m.joint_springs = list(M::joint_springs);
+  m.clearances = list(M::clearances);
+  m.contacts = list(M::contacts);
+  m.frictions = list(M::frictions);
+  m.nz = M::nz;
   m.projects = M::projects;
   return m;
 }

@@ -102,6 +102,34 @@ struct ClosureStructure {
   VectorShape point_2 = VectorShape::general;
 };
 
+// Spring and damper on one coordinate of a tree joint.
+struct JointSpring {
+  int q, v;
+};
+
+// Clearance of a revolute closure: its contacts, and which end is the bearing.
+struct ClearanceStructure {
+  int closure;
+  bool bearing_first;
+  bool hertz;  // exponent 3/2
+  FreeBristle free_bristle = FreeBristle::reset;
+  int contact_begin, contact_end;  // planar 1, spatial 2
+};
+
+// One place where a journal can touch its bearing.
+struct ContactStructure {
+  int clearance;
+  double side;  // of the bearing's length, from its middle: 0, -1/2, 1/2
+  int z = -1;   // bristle, or -1: no friction
+};
+
+// Friction in a tree joint: velocities it brakes (or -1), and its first bristle.
+struct JointFrictionStructure {
+  int body;
+  int turn = -1, slide = -1;
+  int z;
+};
+
 struct LoadStructure {
   LoadType type;
   int v = -1;     // drive, resistance
@@ -121,10 +149,15 @@ struct Mechanism {
   std::vector<Velocity> velocities;  // (nv)
   std::vector<int> ball_q;           // first position index of every quaternion
   std::vector<ClosureStructure> closures;
-  std::vector<Row> cut_rows;  // (nc) constraint rows, closure by closure
+  std::vector<Row> cut_rows;  // (nc) constraint rows, closure by closure, of clearances too
   std::vector<Row> sde_rows;  // (ns)
   std::vector<int> support;   // by closure: velocities on both paths to ground, descending
   std::vector<LoadStructure> loads;
+  std::vector<JointSpring> joint_springs;
+  std::vector<ClearanceStructure> clearances;
+  std::vector<ContactStructure> contacts;  // clearance by clearance
+  std::vector<JointFrictionStructure> frictions;
+  int nz = 0;  // bristles
   int table_segments = 0;
   bool projects = false;  // some cut closure asks for coordinate projection
 

@@ -4,6 +4,8 @@
 
 #include <vector>
 
+#include "core/laws/lugre_friction.h"
+#include "core/laws/normal_contact.h"
 #include "core/spatial/vector3.h"
 
 namespace linkstudy {
@@ -47,6 +49,30 @@ struct SpringParameters {
 };
 
 template <class Real>
+struct JointSpringParameters {
+  Real stiffness, damping, rest;
+};
+
+template <class Real>
+struct ClearanceParameters {
+  Real radial;                  // c_r, m
+  Real bearing_radius;          // m
+  Real length;                  // of the bearing, m
+  NormalContact<Real> contact;  // K of one contact: a half where there are two
+  LugreParameters<Real> friction;
+  Real relaxation;  // of a free bristle: sigma0 / sigma1, 1/s
+};
+
+template <class Real>
+struct JointFrictionParameters {
+  LugreParameters<Real> law;
+  Real radius;          // m
+  Real inverse_length;  // 1/m; 0: moments are not felt
+  Real inverse_radius;  // 1/m, of a prismatic joint; 0: twist is not felt
+  Real preload;         // N
+};
+
+template <class Real>
 struct Parameters {
   Vec3<Real> gravity;                        // ground axes
   std::vector<BodyParameters<Real>> bodies;  // (nb), [0] unused
@@ -54,6 +80,9 @@ struct Parameters {
   std::vector<ClosureParameters<Real>> closures;
   std::vector<SpringParameters<Real>> springs;  // (ns)
   std::vector<LoadParameters<Real>> loads;
+  std::vector<JointSpringParameters<Real>> joint_springs;
+  std::vector<ClearanceParameters<Real>> clearances;
+  std::vector<JointFrictionParameters<Real>> frictions;
   std::vector<SegmentParameters<Real>> segments;
 };
 

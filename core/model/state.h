@@ -1,4 +1,4 @@
-// State of a linkage: joint positions, velocities, and the work done so far.
+// State of a linkage: joint positions, velocities, bristles, and the work done so far.
 #pragma once
 
 #include <vector>
@@ -12,6 +12,7 @@ struct State {
   double t = 0.0;               // s
   std::vector<Real> q;          // (nq)
   std::vector<Real> v;          // (nv)
+  std::vector<Real> z;          // (nz) deflections of bristles, m
   Real supplied = Real(0.0);    // work of drives since the start, J
   Real dissipated = Real(0.0);  // work against resistance and damping since the start, J
 };
@@ -21,6 +22,7 @@ State<Real> make_state(const Mechanism& m) {
   State<Real> s;
   s.q.assign(static_cast<std::size_t>(m.nq), Real(0.0));
   s.v.assign(static_cast<std::size_t>(m.nv), Real(0.0));
+  s.z.assign(static_cast<std::size_t>(m.nz), Real(0.0));
   for (int i : m.ball_q) s.q[static_cast<std::size_t>(i)] = Real(1.0);
   return s;
 }

@@ -75,16 +75,22 @@ inline auto parent_of(const M& m, B b) {
   return structural(m, b, [](const auto& s, int i) { return at(s.bodies, i).parent; });
 }
 
-// Closures of one model.
+// Clearances keep multipliers for the directions that stay blocked: their rows are cut rows.
+constexpr bool has_cut_rows(ClosureModel model) {
+  return model != ClosureModel::sde;
+}
+
+// Closures whose rows are cut rows, or sde rows.
 template <ClosureModel Model, class M, class F>
 inline void for_closures(const M& m, F&& f) {
   const auto count =
       structural(m, 0, [](const auto& s, int) { return static_cast<int>(s.closures.size()); });
   for_range(Index<0>(), count, [&](auto c) {
     if constexpr (Constant<decltype(c)>) {
-      if constexpr (M::closures[static_cast<std::size_t>(c())].model == Model) f(c);
+      constexpr ClosureModel model = M::closures[static_cast<std::size_t>(c())].model;
+      if constexpr (has_cut_rows(model) == has_cut_rows(Model)) f(c);
     } else {
-      if (at(m.closures, c).model == Model) f(c);
+      if (has_cut_rows(at(m.closures, c).model) == has_cut_rows(Model)) f(c);
     }
   });
 }
@@ -133,6 +139,50 @@ inline void for_support(const M& m, C c, F&& f) {
   for_range(begin, end, [&](auto i) {
     f(structural(m, i, [](const auto& s, int n) { return at(s.support, n); }));
   });
+}
+
+template <class M, class F>
+inline void for_joint_springs(const M& m, F&& f) {
+  const auto count =
+      structural(m, 0, [](const auto& s, int) { return static_cast<int>(s.joint_springs.size()); });
+  for_range(Index<0>(), count, f);
+}
+
+template <class M>
+inline auto clearance_count(const M& m) {
+  return structural(m, 0, [](const auto& s, int) { return static_cast<int>(s.clearances.size()); });
+}
+template <class M>
+inline auto contact_count(const M& m) {
+  return structural(m, 0, [](const auto& s, int) { return static_cast<int>(s.contacts.size()); });
+}
+template <class M>
+inline auto friction_count(const M& m) {
+  return structural(m, 0, [](const auto& s, int) { return static_cast<int>(s.frictions.size()); });
+}
+template <class M>
+inline auto bristle_count(const M& m) {
+  return structural(m, 0, [](const auto& s, int) { return s.nz; });
+}
+
+template <class M, class F>
+inline void for_clearances(const M& m, F&& f) {
+  for_range(Index<0>(), clearance_count(m), f);
+}
+// Contacts of one clearance.
+template <class M, class C, class F>
+inline void for_contacts(const M& m, C c, F&& f) {
+  for_range(
+      structural(m, c, [](const auto& s, int i) { return at(s.clearances, i).contact_begin; }),
+      structural(m, c, [](const auto& s, int i) { return at(s.clearances, i).contact_end; }), f);
+}
+template <class M, class F>
+inline void for_all_contacts(const M& m, F&& f) {
+  for_range(Index<0>(), contact_count(m), f);
+}
+template <class M, class F>
+inline void for_frictions(const M& m, F&& f) {
+  for_range(Index<0>(), friction_count(m), f);
 }
 
 template <class M, class F>

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <vector>
 
 #include "core/base/walk.h"
@@ -39,6 +40,45 @@ struct ClosureState {
   Vec3<Real> force_points;
   Vec3<Real> force_second;
   Vec3<Real> couple;
+  // Forces of the contacts of a clearance on chain 1, and their moment about p1.
+  Vec3<Real> contact_force;
+  Vec3<Real> contact_moment;
+};
+
+// One place where a journal can touch its bearing.
+template <class Real>
+struct ContactState {
+  Vec3<Real> eccentricity;  // from the journal's axis to the bearing's, across the latter, m
+  Real depth, rate;         // penetration (negative: gap left), m, and its rate, m/s
+  Real normal, elastic;     // normal force and its elastic part, N
+  Real speed;               // of the journal's surface along a x u at the contact, m/s
+  Real friction;            // against this speed, N
+};
+
+// What a contact remembers of the accepted states; constant during a step. As made here it is a
+// contact without a past: elastic.
+template <class Real>
+struct ContactMemory {
+  Real depth = Real(0.0), rate = Real(0.0);                       // at the last accepted state
+  Real touching = Real(1.0);                                      // 1 in contact, 0 not
+  Real approach = Real(std::numeric_limits<double>::infinity());  // speed of this contact, m/s
+  Real least_depth = Real(0.0);  // no force below: infinity where a located run holds it open
+};
+
+// Friction in a tree joint: normal load, sliding velocity, coefficient and generalised force, each
+// along the turn and along the slide.
+template <class Real>
+struct JointFrictionState {
+  Real load;               // N
+  Real mu_turn, mu_slide;  // along the sliding velocity
+  Real on_turn, on_slide;  // N m, N: against the motion
+};
+
+// Scratch and result of reactions in tree joints (core/dynamics/reactions.h).
+template <class Real, int Bodies>
+struct ReactionState {
+  Array<BodyState<Real>, Bodies> moving;  // (nb) bodies with their true accelerations
+  Array<Wrench<Real>, Bodies> on_child;   // (nb), [0] the sum on ground, about its origin
 };
 
 // One direction of a closure. Unit wrench: `force` on the line of action and `couple`.
@@ -56,7 +96,8 @@ struct RowState {
 template <class M>
 struct Counts {
   static constexpr int bodies = -1, nv = -1, nv_nv = -1, closures = -1, loads = -1, nc = -1,
-                       nc_nv = -1, nc_nc = -1, ns = -1, size = -1;
+                       nc_nv = -1, nc_nc = -1, ns = -1, contacts = -1, frictions = -1, nz = -1,
+                       friction_bodies = -1, friction_nv = -1, size = -1;
 };
 
 template <FixedStructure M>
@@ -64,7 +105,11 @@ struct Counts<M> {
   static constexpr int bodies = M::bodies.size(), nv = M::nv, nv_nv = nv * nv,
                        closures = M::closures.size(), loads = M::loads.size(),
                        nc = M::cut_rows.size(), nc_nv = nc * nv, nc_nc = nc * nc,
-                       ns = M::sde_rows.size(), size = M::nq + nv + 2;  // of a state's record
+                       ns = M::sde_rows.size(), contacts = M::contacts.size(),
+                       frictions = M::frictions.size(), nz = M::nz,
+                       friction_bodies = frictions > 0 ? bodies : 0,
+                       friction_nv = frictions > 0 ? nv : 0,
+                       size = M::nq + nv + nz + 2;  // of a state's record
 };
 
 template <class Real, class M = Mechanism>
@@ -85,12 +130,20 @@ struct Workspace {
   Array<Real, N::nc_nc> schur;               // (nc, nc) J M^-1 J^T, then its factor
   Array<Real, N::nc> schur_rhs;              // (nc)
   Array<Real, N::nc> row_inverse;            // (nc) 1 / pivot of the factor
-  Real supplied_power = Real(0.0);           // W
-  Real dissipated_power = Real(0.0);         // W
+  Array<ContactState<Real>, N::contacts> contacts;
+  Array<ContactMemory<Real>, N::contacts> memory;
+  Array<JointFrictionState<Real>, N::frictions> frictions;
+  Array<Real, N::friction_nv> friction_tau;           // (nv) of joints with friction
+  Array<Real, N::nz> z;                               // (nz) bristles: set before an evaluation
+  Array<Real, N::nz> z_rate;                          // (nz)
+  ReactionState<Real, N::friction_bodies> reactions;  // where joints have friction
+  Real supplied_power = Real(0.0);                    // W
+  Real dissipated_power = Real(0.0);                  // W
   // Lanes, one bit each, whose cut rows depend on each other or nearly, so that `schur` holds no
   // factor of theirs; and the number of independent rows, in each lane its own.
   unsigned redundant = 0;
   Real kept_rows = Real(0.0);
+  unsigned jammed = 0;  // lanes whose joint friction found no balance with the reactions
   // For these lanes (core/closures/redundant_rows.h); a fixed structure leaves them to others.
   static constexpr bool copes = !FixedStructure<M>;
   Array<Real, copes ? -1 : 0> cut_jacobian;    // (nc, nv) J
@@ -137,6 +190,15 @@ Workspace<Real> make_workspace(const Mechanism& m) {
   w.mass.assign(nv * nv, Real(0.0));
   for (auto* x : {&w.inverse_pivot, &w.tau, &w.y, &w.qdd}) x->assign(nv, Real(0.0));
   w.link_loads.resize(m.loads.size());
+  w.contacts.resize(m.contacts.size());
+  w.memory.resize(m.contacts.size());
+  w.frictions.resize(m.frictions.size());
+  w.friction_tau.assign(m.frictions.empty() ? 0 : nv, Real(0.0));
+  for (auto* x : {&w.z, &w.z_rate}) x->assign(static_cast<std::size_t>(m.nz), Real(0.0));
+  if (!m.frictions.empty()) {
+    w.reactions.moving.resize(m.bodies.size());
+    w.reactions.on_child.resize(m.bodies.size());
+  }
   w.cut_rows = make_rows<Real>(m.cut_rows);
   w.sde_rows = make_rows<Real>(m.sde_rows);
   w.cut_y.assign(nc * nv, Real(0.0));

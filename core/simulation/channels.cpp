@@ -26,6 +26,7 @@ class Lister {
       add_vector(name + ".force", "N", Quantity::closure_force, closure);
       add_vector(name + ".torque", "N m", Quantity::closure_torque, closure);
       add_vector(name + ".gap", "m", Quantity::closure_gap, closure);
+      add_clearances_of(closure, name);
     }
     add("energy.kinetic", "J", Quantity::kinetic, 0, 0);
     add("energy.potential", "J", Quantity::potential, 0, 0);
@@ -70,6 +71,52 @@ class Lister {
     add_vector(name + ".torque", "N m", Quantity::joint_torque, b);
     add_vector(name + ".force_local", "N", Quantity::joint_force_local, b);
     add_vector(name + ".torque_local", "N m", Quantity::joint_torque_local, b);
+    add_friction_of(b, name);
+  }
+
+  void add_clearances_of(int closure, const std::string& name) {
+    for (std::size_t i = 0; i < m_.clearances.size(); ++i) {
+      const ClearanceStructure& c = m_.clearances[i];
+      if (c.closure != closure) continue;
+      const int index = static_cast<int>(i);
+      add(name + ".eccentricity.x", "m", Quantity::eccentricity, index, 0);
+      add(name + ".eccentricity.y", "m", Quantity::eccentricity, index, 1);
+      add_contacts(c, name + ".penetration.", "m", Quantity::penetration);
+      add_contacts(c, name + ".normal_force.", "N", Quantity::normal_force);
+      add_contacts(c, name + ".friction_force.", "N", Quantity::friction_force);
+      add_contacts(c, name + ".bristle.", "m", Quantity::bristle);
+      add(name + ".contact_state", "", Quantity::contact_state, index, 0);
+    }
+  }
+
+  // Bristles are found by their own number; contacts without friction have none.
+  void add_contacts(const ClearanceStructure& c, const std::string& name, const std::string& unit,
+                    Quantity quantity) {
+    for (int i = c.contact_begin; i < c.contact_end; ++i) {
+      const int z = m_.contacts[static_cast<std::size_t>(i)].z;
+      const bool rubs = quantity == Quantity::friction_force || quantity == Quantity::bristle;
+      if (rubs && z < 0) continue;
+      add(name + std::to_string(i - c.contact_begin), unit, quantity,
+          quantity == Quantity::bristle ? z : i, 0);
+    }
+  }
+
+  void add_friction_of(int b, const std::string& name) {
+    for (std::size_t i = 0; i < m_.frictions.size(); ++i) {
+      const JointFrictionStructure& f = m_.frictions[i];
+      if (f.body != b) continue;
+      const int index = static_cast<int>(i);
+      const bool both = f.turn >= 0 && f.slide >= 0;
+      add(name + ".normal_load", "N", Quantity::friction_load, index, 0);
+      if (f.turn >= 0) {
+        add(name + (both ? ".friction.0" : ".friction"), "N m", Quantity::joint_friction, index, 0);
+      }
+      if (f.slide >= 0) {
+        add(name + (both ? ".friction.1" : ".friction"), "N", Quantity::joint_friction, index, 1);
+      }
+      add(name + (both ? ".bristle.0" : ".bristle"), "m", Quantity::bristle, f.z, 0);
+      if (both) add(name + ".bristle.1", "m", Quantity::bristle, f.z + 1, 0);
+    }
   }
 
   const Mechanism& m_;

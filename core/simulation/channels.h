@@ -6,6 +6,16 @@
 //   joint.N.force_local|...      the same in the child's joint frame
 //   closure.N.force|torque.x..   on chain 1 (`first`) at the closure point, ground axes
 //   closure.N.gap.x|y|z          second minus first closure point, ground axes
+//   joint.N.normal_load          of a joint with friction; joint.N.friction[.i]: against the motion
+//                                of its coordinates; joint.N.bristle[.i]
+//   with clearance:
+//   closure.N.eccentricity.x|y   bearing centre less journal centre along y and z of the bearing's
+//                                frame (x is its axis), in the middle of the bearing
+//   closure.N.penetration.i, .normal_force.i, .friction_force.i, .bristle.i
+//                                of contact i: planar 0; spatial 0 and 1, at the ends of the
+//                                bearing
+//                                (-x and +x); friction against the journal's turn in the bearing
+//   closure.N.contact_state      0 free, 1 one point, 2 two points on opposite sides, 3 line
 //   energy.kinetic|potential|supplied|dissipated|residual
 #pragma once
 
@@ -28,6 +38,14 @@ enum class Quantity : std::uint8_t {
   closure_force,
   closure_torque,
   closure_gap,
+  eccentricity,
+  penetration,
+  normal_force,
+  friction_force,
+  bristle,
+  contact_state,
+  friction_load,
+  joint_friction,
   kinetic,
   potential,
   supplied,
@@ -39,7 +57,7 @@ struct Channel {
   std::string name;
   std::string unit;
   Quantity quantity;
-  int index = 0;      // coordinate, body or closure
+  int index = 0;      // coordinate, body, closure, clearance, contact, bristle or friction
   int component = 0;  // 0 1 2 for x y z
 };
 

@@ -16,7 +16,7 @@ class Instant {
   Instant(const M& m, const Parameters<Real>& p, const Workspace<Real, M>& w)
       : m_(m), p_(p), w_(w), reactions_(make_reactions<Real>(m)) {}
 
-  // y: q (nq), v (nv), supplied, dissipated; w must hold the evaluation at (t, y).
+  // y: q (nq), v (nv), z (nz), supplied, dissipated; w must hold the evaluation at (t, y).
   void move_to(double t, const Real* y) {
     t_ = t;
     y_ = y;
@@ -40,29 +40,73 @@ class Instant {
       case Quantity::joint_torque_local:
         return reaction(c);
       case Quantity::closure_force:
-        return component(compute_closure_wrench(at(w_.closures, c.index)).force, c.component);
+        return component(closure_wrench(c.index).force, c.component);
       case Quantity::closure_torque:
-        return component(compute_closure_wrench(at(w_.closures, c.index)).torque, c.component);
+        return component(closure_wrench(c.index).torque, c.component);
       case Quantity::closure_gap:
-        return component(compute_closure_wrench(at(w_.closures, c.index)).gap, c.component);
+        return component(closure_wrench(c.index).gap, c.component);
+      case Quantity::eccentricity:
+        return eccentricity(c);
+      case Quantity::penetration:
+        return max(at(w_.contacts, c.index).depth, Real(0.0));
+      case Quantity::normal_force:
+        return at(w_.contacts, c.index).normal;
+      case Quantity::friction_force:
+        return at(w_.contacts, c.index).friction;
+      case Quantity::bristle:
+        return y_[m_.nq + m_.nv + c.index];
+      case Quantity::contact_state:
+        return contact_state(c.index);
+      case Quantity::friction_load:
+        return at(w_.frictions, c.index).load;
+      case Quantity::joint_friction:
+        return c.component == 0 ? at(w_.frictions, c.index).on_turn
+                                : at(w_.frictions, c.index).on_slide;
       default:
         return energy(c.quantity);
     }
   }
 
   Energy<Real> energy() {
-    if (!has_energy_) energy_ = compute_energy(m_, p_, w_);
+    if (!has_energy_) energy_ = compute_energy(m_, p_, y_, w_);
     has_energy_ = true;
     return energy_;
   }
-  Real supplied() const { return y_[m_.nq + m_.nv]; }
-  Real dissipated() const { return y_[m_.nq + m_.nv + 1]; }
+  Real supplied() const { return y_[m_.nq + m_.nv + m_.nz]; }
+  Real dissipated() const { return y_[m_.nq + m_.nv + m_.nz + 1]; }
   Real residual() {
     const Energy<Real> e = energy();
     return e.kinetic + e.potential() - initial_energy_ - supplied() + dissipated();
   }
 
  private:
+  ClosureWrench<Real> closure_wrench(int c) const {
+    return compute_closure_wrench(at(m_.closures, c), at(w_.closures, c));
+  }
+
+  // Along y or z of the bearing's frame, in the middle of the bearing.
+  Real eccentricity(const Channel& c) const {
+    const ClearanceStructure& s = at(m_.clearances, c.index);
+    const ClosureState<Real>& x = at(w_.closures, s.closure);
+    const Mat3<Real>& frame = s.bearing_first ? x.r1 : x.r2;
+    Vec3<Real> e = at(w_.contacts, s.contact_begin).eccentricity;
+    const int last = s.contact_end - 1;
+    if (last > s.contact_begin) e = Real(0.5) * (e + at(w_.contacts, last).eccentricity);
+    return dot(c.component == 0 ? frame.y : frame.z, e);
+  }
+
+  // 0 free flight, 1 one point, 2 two points on opposite sides, 3 a line (parallel axes: always).
+  Real contact_state(int clearance) const {
+    const ClearanceStructure& s = at(m_.clearances, clearance);
+    const ContactState<Real>& a = at(w_.contacts, s.contact_begin);
+    const ContactState<Real>& b = at(w_.contacts, s.contact_end - 1);
+    const Real none(0.0), one(1.0), two(2.0), line(3.0);
+    const auto touches_a = a.depth > none, touches_b = b.depth > none;
+    const auto same_side = dot(a.eccentricity, b.eccentricity) > none;
+    const Real both = select(same_side, line, two);
+    return select(touches_a && touches_b, both, select(touches_a || touches_b, one, none));
+  }
+
   Real energy(Quantity quantity) {
     switch (quantity) {
       case Quantity::kinetic:

@@ -9,6 +9,9 @@
 
 namespace linkstudy {
 
+// Steps of the shortest contact where none has ended.
+inline constexpr double kNoContact = 1e9;
+
 // How the run of one lane ended.
 struct LaneEnd {
   Cause cause = Cause::ok;
@@ -20,11 +23,13 @@ struct LaneEnd {
   double drift_max = 0.0;
   double energy_residual_max = 0.0;
   double energy_scale = 0.0;
+  double contacts = 0.0;                    // begun
+  double least_contact_steps = kNoContact;  // steps in the shortest contact that has ended
 };
 
 struct LaneCase {
   const Parameters<double>* parameters;
-  const double* y;       // start: q (nq), v (nv), supplied, dissipated
+  const double* y;       // start: q (nq), v (nv), z (nz), supplied, dissipated
   double* final_y;       // the same at the end
   Observers* observers;  // sized; of the same form in all lanes
   std::size_t* samples;  // (series) rows written

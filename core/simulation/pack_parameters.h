@@ -58,6 +58,9 @@ inline Parameters<Real> pack_parameters(const LaneCase* cases, int count) {
   pack_all(packed.closures, &Numbers::closures);
   pack_all(packed.springs, &Numbers::springs);
   pack_all(packed.loads, &Numbers::loads);
+  pack_all(packed.joint_springs, &Numbers::joint_springs);
+  pack_all(packed.clearances, &Numbers::clearances);
+  pack_all(packed.frictions, &Numbers::frictions);
   pack_all(packed.segments, &Numbers::segments);
   return packed;
 }

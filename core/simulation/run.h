@@ -7,6 +7,7 @@
 #include "core/base/flush_denormals.h"
 #include "core/closures/projection.h"
 #include "core/dynamics/equations_of_motion.h"
+#include "core/forces/contact_memory.h"
 #include "core/numerics/runge_kutta.h"
 #include "core/simulation/lane_observers.h"
 #include "core/simulation/pack_parameters.h"
@@ -31,7 +32,7 @@ class Run {
         count_(count),
         active_((1u << count) - 1u),
         p_(pack_parameters<Real>(cases, count)),
-        size_(m.nq + m.nv + 2),
+        size_(m.nq + m.nv + m.nz + 2),
         observers_(cases, count),
         w_(make_workspace<Real>(m)),
         rk_(static_cast<std::size_t>(size_)),
@@ -39,6 +40,7 @@ class Run {
     if constexpr (!FixedStructure<M>) {
       y_.resize(static_cast<std::size_t>(size_));
       correction_.resize(static_cast<std::size_t>(m.nv));
+      contact_steps_.resize(m.contacts.size());
     }
     for (int i = 0; i < lanes; ++i) reset(i);
     for_bodies(m_, [&](auto b) { mass_ = mass_ + at(p_.bodies, b).mass; });
@@ -57,6 +59,9 @@ class Run {
       observers_.observe(step_, now_);
       if (step_ == setting_.count) break;
       if (step_ % kStepsBetweenPolls == 0 && interrupted(t)) return;
+      if (contact_count(m_) > 0) {
+        update_contact_memory(m_, w_, contact_steps_.data(), bristles(), contact_log_);
+      }
       rk_.advance(t, setting_.h, y_.data(),
                   [this](double s, const Real* y, Real* slope) { differentiate(s, y, slope); });
       finish_step();
@@ -76,29 +81,33 @@ class Run {
     });
     Real* rest = slope + m_.nq;
     for_velocities(m_, [&](auto k) { rest[k] = at(w.qdd, k); });
-    rest[m_.nv] = w.supplied_power;
-    rest[m_.nv + 1] = w.dissipated_power;
+    for_range(Index<0>(), bristle_count(m_), [&](auto i) { rest[m_.nv + i] = at(w.z_rate, i); });
+    rest[m_.nv + m_.nz] = w.supplied_power;
+    rest[m_.nv + m_.nz + 1] = w.dissipated_power;
+  }
+
+  template <class W>
+  void evaluate_into(W& w, double t, const Real* q, Real* slope) {
+    const Real* v = q + m_.nq;
+    for_range(Index<0>(), bristle_count(m_), [&](auto i) { at(w.z, i) = v[m_.nv + i]; });
+    evaluate(m_, p_, t, q, v, w);
+    write_slopes(q, v, w, slope);
+    redundant_ |= w.redundant;
   }
 
   // Leaves everything in the workspace for observers.
   [[gnu::noinline, gnu::flatten]] void differentiate_kept(double t) {
-    const Real* q = y_.data();
-    evaluate(m_, p_, t, q, q + m_.nq, w_);
-    write_slopes(q, q + m_.nq, w_, rk_.first_slope());
-    redundant_ |= w_.redundant;
+    evaluate_into(w_, t, y_.data(), rk_.first_slope());
   }
 
   // A workspace of its own lives in registers as far as they go where the structure is fixed.
   [[gnu::noinline, gnu::flatten]] void differentiate(double t, const Real* q, Real* slope) {
     if constexpr (FixedStructure<M>) {
       Workspace<Real, M> w = make_workspace<Real>(m_);
-      evaluate(m_, p_, t, q, q + m_.nq, w);
-      write_slopes(q, q + m_.nq, w, slope);
-      redundant_ |= w.redundant;
+      w.memory = w_.memory;
+      evaluate_into(w, t, q, slope);
     } else {
-      evaluate(m_, p_, t, q, q + m_.nq, w_);
-      write_slopes(q, q + m_.nq, w_, slope);
-      redundant_ |= w_.redundant;
+      evaluate_into(w_, t, q, slope);
     }
   }
 
@@ -135,6 +144,7 @@ class Run {
     if constexpr (FixedStructure<M>) abandon_lanes(active_ & redundant_);
     end_lanes(active_ & ~lane_bits(moving), Cause::diverged);
     end_lanes(active_ & ~lane_bits(closed), Cause::constraint_drift);
+    end_lanes(active_ & w_.jammed, Cause::diverged);
   }
 
   // The ledger must hold up to the energy that has entered: work, start, and the swing of weights.
@@ -182,6 +192,8 @@ class Run {
     end.drift_max = lane(drift_max_, i);
     end.energy_residual_max = lane(residual_max_, i);
     end.energy_scale = lane(scale_, i);
+    end.contacts = lane(contact_log_.begun, i);
+    end.least_contact_steps = lane(contact_log_.least_steps, i);
     for (int k = 0; k < size_; ++k) cases_[i].final_y[k] = lane(at(y_, k), i);
     observers_.store(i);
     active_ &= ~(1u << i);
@@ -197,7 +209,20 @@ class Run {
   void reset(int i) {
     const LaneCase& c = cases_[i < count_ ? i : count_ - 1];
     for (int k = 0; k < size_; ++k) set_lane(at(y_, k), i, c.y[k]);
+    for_all_contacts(m_, [&](auto n) { set_contact(n, i, fresh_contact<double>()); });
   }
+
+  void set_contact(int contact, int i, const ContactMemory<double>& from) {
+    ContactMemory<Real>& memory = at(w_.memory, contact);
+    set_lane(memory.depth, i, from.depth);
+    set_lane(memory.rate, i, from.rate);
+    set_lane(memory.touching, i, from.touching);
+    set_lane(memory.approach, i, from.approach);
+    set_lane(memory.least_depth, i, from.least_depth);
+    set_lane(at(contact_steps_, contact), i, 0.0);
+  }
+
+  Real* bristles() { return y_.data() + m_.nq + m_.nv; }
 
   using N = Counts<M>;
   const M& m_;
@@ -210,8 +235,10 @@ class Run {
   long step_ = 0;
   Parameters<Real> p_;
   int size_;
-  Array<Real, N::size> y_;  // q (nq), v (nv), supplied, dissipated
+  Array<Real, N::size> y_;  // q (nq), v (nv), z (nz), supplied, dissipated
   Array<Real, N::nv> correction_;
+  Array<Real, N::contacts> contact_steps_;  // states in the present contact
+  ContactLog<Real> contact_log_;
   LaneObservers<Real> observers_;
   Workspace<Real, M> w_;
   RungeKutta<ClassicalRungeKutta, Real, N::size> rk_;

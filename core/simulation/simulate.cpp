@@ -84,6 +84,8 @@ class Packed {
     samples_[i].assign(c.observers->series.size(), 0);
     auto& y = starts_.emplace_back(c.start->q);
     y.insert(y.end(), c.start->v.begin(), c.start->v.end());
+    y.insert(y.end(), c.start->z.begin(), c.start->z.end());
+    y.resize(static_cast<std::size_t>(m_.nq + m_.nv + m_.nz));
     y.push_back(c.start->supplied);
     y.push_back(c.start->dissipated);
     auto& final_y = finals_.emplace_back(y.size());
@@ -108,7 +110,12 @@ class Packed {
     const auto& y = finals_[i];
     o.final_state.t = o.end_time;
     o.final_state.q.assign(y.begin(), y.begin() + m_.nq);
-    o.final_state.v.assign(y.begin() + m_.nq, y.begin() + m_.nq + m_.nv);
+    o.contacts = static_cast<long>(end.contacts);
+    o.least_contact_steps =
+        end.least_contact_steps < kNoContact ? static_cast<long>(end.least_contact_steps) : 0;
+    const auto v = y.begin() + m_.nq;
+    o.final_state.v.assign(v, v + m_.nv);
+    o.final_state.z.assign(v + m_.nv, v + m_.nv + m_.nz);
     o.final_state.supplied = y[y.size() - 2];
     o.final_state.dissipated = y[y.size() - 1];
     for (std::size_t k = 0; k < samples_[i].size(); ++k) {

@@ -47,7 +47,7 @@ struct Link {
   // About the centre of mass, in axes parallel to the link frame, kg m^2. The off-diagonal entries
   // are those of the matrix, I_xy = -integral(x y dm).
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
-  std::optional<FlexibleBeam> flexible;
+  std::optional<FlexibleBeam> flexible{};
 };
 
 // Motions of a joint's child frame in its parent frame, in the order of its coordinates:

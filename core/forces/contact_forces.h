@@ -1,0 +1,102 @@
+// Forces in clearances ([AugUrb18] eqs. (13)-(17)): at every contact a normal force
+// (core/laws/normal_contact.h) and LuGre friction (core/laws/lugre_friction.h) between journal and
+// bearing, equal and opposite at one point in space.
+//   on the journal   -N n at c + X,   -mu N t at K = c + r_b u
+//   (core/kinematics/contact_kinematics.h)
+// Their power leaves the bodies as N delta_dot + mu N v_t: K delta^n delta_dot is stored, the rest
+// is dissipated (what the bristles store counts as dissipated).
+//
+// The approach speed of a contact is that of its beginning, and more if it is driven faster later;
+// its law then never pulls. In the step where it begins that speed is found from the states around
+// the crossing.
+#pragma once
+
+#include "core/kinematics/contact_kinematics.h"
+
+namespace linkstudy {
+
+template <class Real>
+inline Real approach_speed(const ContactMemory<Real>& memory, Real depth, Real rate) {
+  return select(memory.touching > Real(0.5), memory.approach,
+                crossing_speed(memory.depth, memory.rate, depth, rate));
+}
+
+template <class Real>
+inline Real free_bristle_rate(FreeBristle rule, const ClearanceParameters<Real>& n, Real z) {
+  return rule == FreeBristle::relax ? Real(0.0) - n.relaxation * z : Real(0.0);
+}
+
+template <class Real>
+inline void add_contact_wrench(const ContactGeometry<Real>& k, const Vec3<Real>& axis, Real sign,
+                               const ContactState<Real>& s, ClosureState<Real>& x) {
+  const Vec3<Real> force = sign * (madd(Real(0.0) - s.normal, k.n, (Real(0.0) - s.friction) * k.t));
+  const Vec3<Real> couple = (sign * (Real(0.0) - s.friction) * k.arm) * axis;
+  x.contact_force = x.contact_force + force;
+  x.contact_moment = x.contact_moment + cross(k.point - x.p1, force) + couple;
+}
+
+// Friction of one contact, and the rate of its bristle.
+template <class Real, class Mask, class W>
+inline Real contact_friction(const ClearanceStructure& structure, const ContactStructure& contact,
+                             const ClearanceParameters<Real>& n, const Mask& acts,
+                             const ContactState<Real>& s, W& w) {
+  if (contact.z < 0) return Real(0.0);
+  const Real z = at(w.z, contact.z);
+  const Real free_rate = free_bristle_rate(structure.free_bristle, n, z);
+  if (!any(acts)) {
+    at(w.z_rate, contact.z) = free_rate;
+    return Real(0.0);
+  }
+  const LugreState<Real> f = lugre_friction(n.friction, z, s.speed);
+  at(w.z_rate, contact.z) = select(acts, f.z_rate, free_rate);
+  return f.mu * s.normal;
+}
+
+template <class M, class C, class I, class Real>
+[[gnu::noinline]] void add_contact(const M& m, C c, I i, const JournalInBearing<Real>& j,
+                                   const ClearanceParameters<Real>& n, ClosureState<Real>& x,
+                                   Workspace<Real, M>& w) {
+  const ClearanceStructure& structure = at(m.clearances, c);
+  const ContactStructure& contact = at(m.contacts, i);
+  const ContactMemory<Real>& memory = at(w.memory, i);
+  ContactState<Real>& s = at(w.contacts, i);
+  const ContactGeometry<Real> k =
+      contact_geometry(j, Real(contact.side) * n.length, n.radial, n.bearing_radius);
+  s.eccentricity = Real(-1.0) * k.x;
+  s.depth = k.depth;
+  s.rate = k.rate;
+  s.speed = k.speed;
+  s.normal = s.elastic = s.friction = Real(0.0);
+  const auto acts = k.depth > memory.least_depth;
+  if (any(acts)) {
+    const Real depth = select(acts, k.depth, Real(0.0));
+    const ContactForce<Real> f = normal_contact_force(n.contact, structure.hertz, depth, k.rate,
+                                                      approach_speed(memory, k.depth, k.rate));
+    s.normal = select(acts, f.normal, Real(0.0));
+    s.elastic = select(acts, f.elastic, Real(0.0));
+  }
+  s.friction = contact_friction(structure, contact, n, acts, s, w);
+  if (!any(acts)) return;
+  add_contact_wrench(k, j.a, Real(structure.bearing_first ? -1.0 : 1.0), s, x);
+  w.dissipated_power =
+      w.dissipated_power + madd(s.friction, s.speed, (s.normal - s.elastic) * s.rate);
+}
+
+template <class M, class Real>
+inline void add_contacts(const M& m, const Parameters<Real>& p, Workspace<Real, M>& w) {
+  BodyState<Real>* bodies = w.bodies.data();
+  for_clearances(m, [&](auto c) {
+    const ClearanceStructure& clearance = at(m.clearances, c);
+    const ClosureStructure& closure = at(m.closures, clearance.closure);
+    ClosureState<Real>& x = at(w.closures, clearance.closure);
+    update_closure_pose(m, closure, at(p.closures, clearance.closure), bodies, x);
+    x.contact_force = x.contact_moment = zero3<Real>();
+    const JournalInBearing<Real> j =
+        journal_in_bearing(clearance, x, bodies[closure.first], bodies[closure.second]);
+    for_contacts(m, c, [&](auto i) { add_contact(m, c, i, j, at(p.clearances, c), x, w); });
+    subtract_contact_forces(closure, x, bodies, bodies[closure.first].wrench,
+                            bodies[closure.second].wrench);
+  });
+}
+
+}  // namespace linkstudy

@@ -1,0 +1,51 @@
+// What contacts remember from one accepted state to the next, and what a run tells of them.
+#pragma once
+
+#include "core/forces/contact_forces.h"
+
+namespace linkstudy {
+
+// Contacts of one lane, all places together.
+template <class Real>
+struct ContactLog {
+  Real begun = Real(0.0);        // contacts begun
+  Real least_steps = Real(1e9);  // steps in the shortest contact that has ended
+};
+
+// A contact before a run: whatever touches at its start begins there.
+template <class Real>
+inline ContactMemory<Real> fresh_contact() {
+  ContactMemory<Real> memory;
+  memory.touching = memory.approach = Real(0.0);
+  return memory;
+}
+
+// After an evaluation at an accepted state. `steps` counts states in each contact, (contacts);
+// bristles that start afresh are set to zero in z (nz).
+template <class M, class Real>
+inline void update_contact_memory(const M& m, Workspace<Real, M>& w, Real* steps, Real* z,
+                                  ContactLog<Real>& log) {
+  const Real none(0.0), one(1.0);
+  for_all_contacts(m, [&](auto i) {
+    const ContactStructure& contact = at(m.contacts, i);
+    const ContactState<Real>& s = at(w.contacts, i);
+    ContactMemory<Real>& memory = at(w.memory, i);
+    const auto touches = s.depth > memory.least_depth;
+    const auto touched = memory.touching > Real(0.5);
+    const auto ended = touched && !touches;
+    const Real approach = max(approach_speed(memory, s.depth, s.rate), abs(s.rate));
+    memory.approach = select(touches, approach, none);
+    log.begun = log.begun + select(touches && !touched, one, none);
+    log.least_steps = select(ended, min(log.least_steps, steps[i]), log.least_steps);
+    steps[i] = select(touches, select(touched, steps[i] + one, one), none);
+    memory.touching = select(touches, one, none);
+    memory.depth = s.depth;
+    memory.rate = s.rate;
+    if (contact.z < 0 || at(m.clearances, contact.clearance).free_bristle != FreeBristle::reset) {
+      return;
+    }
+    z[contact.z] = select(touches, z[contact.z], none);
+  });
+}
+
+}  // namespace linkstudy
