@@ -10,7 +10,10 @@ using Rows = std::vector<KeyRow>;
 void add_cut_rows(Rows& rows) {
   const std::string cut = "closure.*.cut";
   rows.push_back(
-      {.path = cut, .type = table, .meaning = "settings of model cut", .standard = "{}"});
+      {.path = cut,
+       .type = table,
+       .meaning = "how exact constraints are held: of model cut, and those that clearance leaves",
+       .standard = "{}"});
   rows.push_back({.path = cut + ".stabilization",
                   .type = word,
                   .meaning = "how drift of the constraints is held down",
@@ -185,18 +188,13 @@ void add_closure_rows(Rows& rows) {
   }
   rows.push_back({.path = "closure.*.model",
                   .type = word,
-                  .meaning = "cut: exact, by multipliers; sde: by a spring-damping element",
+                  .meaning = "cut: exact, by multipliers; sde: by a spring-damping element; "
+                             "clearance: a journal in a wider bearing",
                   .standard = "\"cut\"",
-                  .words = {"cut", "sde"},
-                  .planned = {"clearance"}});
-  rows.push_back({.path = "closure.*.clearance",
-                  .type = planned,
-                  .meaning = "clearance in closures; use model cut or sde"});
-  rows.push_back({.path = "closure.*.friction",
-                  .type = planned,
-                  .meaning = "friction in closures; closures are smooth"});
+                  .words = {"cut", "sde", "clearance"}});
   add_cut_rows(rows);
   add_sde_rows(rows);
+  add_clearance_rows(rows);
 }
 
 }  // namespace linkstudy

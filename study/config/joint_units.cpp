@@ -54,13 +54,13 @@ std::size_t last_index(const std::vector<std::string>& parts) {
   return index;
 }
 
-std::optional<std::string> unit_of_start(const Tree& model, const std::vector<std::string>& parts) {
+std::optional<std::string> unit_of_coordinate(const Tree& model,
+                                              const std::vector<std::string>& parts) {
   const Tree* joint = find_named(model, "joint", parts[1]);
   if (joint == nullptr || parts.size() < 4) return std::nullopt;
   const JointKind kind = joint_kind_of(*joint);
   if (!kind.is_known) return std::nullopt;
-  const std::vector<std::string> units =
-      parts[3] == "velocity" ? velocity_units(kind) : position_units(kind);
+  const std::vector<std::string> units = coordinate_units(kind, parts[3]);
   const std::size_t index = parts.size() > 4 ? last_index(parts) : 0;
   if (index >= units.size()) return std::nullopt;
   return units[index];
@@ -129,6 +129,19 @@ std::vector<std::string> velocity_units(const JointKind& kind) {
   return units;
 }
 
+std::vector<std::string> coordinate_units(const JointKind& kind, std::string_view key) {
+  if (key == "position") return position_units(kind);
+  if (key == "velocity") return velocity_units(kind);
+  std::vector<std::string> units;
+  for (const char motion : motions(kind.type)) {
+    const bool turns = motion == 'r';
+    if (key == "stiffness") units.push_back(turns ? "N m/rad" : "N/m");
+    if (key == "damping") units.push_back(turns ? "N m s/rad" : "N s/m");
+    if (key == "rest") units.push_back(turns ? "rad" : "m");
+  }
+  return units;
+}
+
 Tree start_position(const JointKind& kind) {
   const std::vector<std::string> units = position_units(kind);
   Tree start = Tree::make_array(std::vector<Tree>(units.size(), Tree::make_number(0.0)));
@@ -142,7 +155,7 @@ std::optional<std::string> unit_of_path(const Tree& model, const std::string& un
   if (unit.find('|') == std::string::npos) return unit;
   const std::vector<std::string> parts = split_path(path);
   if (parts.size() < 3) return std::nullopt;
-  return parts[0] == "joint" ? unit_of_start(model, parts) : unit_of_load(model, parts);
+  return parts[0] == "joint" ? unit_of_coordinate(model, parts) : unit_of_load(model, parts);
 }
 
 }  // namespace linkstudy

@@ -1,9 +1,10 @@
-// Units that depend on a neighbour: start coordinates follow the joint's type, loads on a joint
-// follow the coordinate they act on.
+// Units that depend on a neighbour: coordinates and springs follow the joint's type, loads on a
+// joint follow the coordinate they act on.
 #pragma once
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/topology/linkage.h"
@@ -28,6 +29,10 @@ JointKind joint_kind_of(const Tree& joint);
 // One unit for each coordinate: "rad", "m" or "1" (quaternion); "rad/s" or "m/s".
 std::vector<std::string> position_units(const JointKind& kind);
 std::vector<std::string> velocity_units(const JointKind& kind);
+
+// Units of the arrays of a joint by the name of the array: position and velocity as above, and
+// stiffness, damping, rest of its spring.
+std::vector<std::string> coordinate_units(const JointKind& kind, std::string_view key);
 
 // The start when none is written: zero, a unit quaternion where one is used.
 Tree start_position(const JointKind& kind);

@@ -50,8 +50,49 @@ void add_link_rows(Rows& rows) {
                   .required = true,
                   .counts = {3, 6},
                   .group = "inertia"});
-  rows.push_back(
-      {.path = "link.*.flexible", .type = planned, .meaning = "flexible links; links are rigid"});
+  add_flexible_rows(rows);
+}
+
+void add_spring_rows(Rows& rows) {
+  const std::string spring = "joint.*.spring";
+  const auto add = [&](const char* key, const char* meaning, const char* unit, Range range) {
+    rows.push_back({.path = spring + "." + key,
+                    .type = numbers,
+                    .meaning = std::string(meaning) + "; default: all zero",
+                    .unit = unit,
+                    .range = range});
+  };
+  rows.push_back({.path = spring,
+                  .type = table,
+                  .meaning = "spring and damper on every coordinate, force -c (q - rest) - b v; "
+                             "not for quaternions; default: none"});
+  add("stiffness", "c, one for each coordinate", "N/m|N m/rad", kNotNegative);
+  add("damping", "b, one for each coordinate", "N s/m|N m s/rad", kNotNegative);
+  add("rest", "coordinates without spring force", "rad|m", {});
+}
+
+void add_joint_friction_rows(Rows& rows) {
+  const std::string friction = "joint.*.friction";
+  const auto add = [&](const char* key, const char* meaning, const char* unit) {
+    rows.push_back({.path = friction + "." + key,
+                    .type = number,
+                    .meaning = meaning,
+                    .unit = unit,
+                    .range = kNotNegative,
+                    .standard = "0.0"});
+  };
+  rows.push_back({.path = friction,
+                  .type = table,
+                  .meaning = "LuGre friction, mu = sigma0 z + sigma1 z' + sigma2 v, under the "
+                             "load that the joint's own reaction makes; default: none",
+                  .only = {"type", {"revolute", "prismatic", "cylindrical"}}});
+  add_friction_rows(rows, friction);
+  add("radius",
+      "radius of the sliding surface, not 0 where it turns; prismatic: arm of the moment about the "
+      "axis, 0: not felt",
+      "m");
+  add("length", "between the two supports along the axis; 0: moments load nothing", "m");
+  add("preload", "normal load besides the reaction", "N");
 }
 
 void add_joint_rows(Rows& rows) {
@@ -113,9 +154,8 @@ void add_joint_rows(Rows& rows) {
                   .type = boolean,
                   .meaning = "assembly keeps position and velocity of this joint",
                   .standard = "false"});
-  rows.push_back({.path = "joint.*.friction",
-                  .type = planned,
-                  .meaning = "friction in joints; joints are smooth"});
+  add_spring_rows(rows);
+  add_joint_friction_rows(rows);
 }
 
 void add_course_rows(Rows& rows) {
@@ -235,6 +275,28 @@ void add_load_rows(Rows& rows) {
   add_law_rows(rows);
 }
 
+void add_tolerance_rows(Rows& rows) {
+  const std::string tolerance = "simulation.tolerance";
+  const auto add = [&](const char* key, const char* meaning, const char* standard) {
+    rows.push_back({.path = tolerance + "." + key,
+                    .type = number,
+                    .meaning = meaning,
+                    .range = kPositive,
+                    .standard = standard});
+  };
+  rows.push_back({.path = tolerance,
+                  .type = table,
+                  .meaning = "error allowed in a step of adaptive and stiff",
+                  .standard = "{}"});
+  add("relative", "part of the size of each unknown", "1.0e-8");
+  add("absolute", "in the unit of each unknown", "1.0e-10");
+  rows.push_back({.path = "simulation.step_limit",
+                  .type = integer,
+                  .meaning = "adaptive, stiff: more steps end the run",
+                  .range = {.low = 1},
+                  .standard = "100000000"});
+}
+
 void add_simulation_rows(Rows& rows) {
   const std::string s = "simulation";
   rows.push_back({.path = s, .type = table, .meaning = "how a run is made", .standard = "{}"});
@@ -246,16 +308,19 @@ void add_simulation_rows(Rows& rows) {
                   .standard = "1.0"});
   rows.push_back({.path = s + ".step",
                   .type = number,
-                  .meaning = "time step; the run takes ceil(end_time / step) equal steps",
+                  .meaning = "time step; the run takes ceil(end_time / step) equal steps; "
+                             "adaptive and stiff: the grid on which a run is seen",
                   .unit = "s",
                   .range = kPositive,
                   .standard = "1.0e-4"});
   rows.push_back({.path = s + ".integrator",
                   .type = word,
-                  .meaning = "rk4: classic Runge-Kutta with a constant step",
+                  .meaning = "rk4: classic Runge-Kutta with a constant step; adaptive: explicit "
+                             "Dormand-Prince; stiff: implicit Rosenbrock; both find begin and end "
+                             "of contacts",
                   .standard = "\"rk4\"",
-                  .words = {"rk4"},
-                  .planned = {"adaptive", "stiff"}});
+                  .words = {"rk4", "adaptive", "stiff"}});
+  add_tolerance_rows(rows);
   rows.push_back({.path = s + ".start",
                   .type = word,
                   .meaning = "given: as the joints say; equilibrium: statics first",

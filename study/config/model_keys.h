@@ -14,6 +14,12 @@ void add_file_rows(std::vector<KeyRow>& rows, const std::string& kind);
 // Pose of a frame: a position and one of four ways to say a rotation.
 void add_frame_rows(std::vector<KeyRow>& rows, const std::string& path);
 
+void add_flexible_rows(std::vector<KeyRow>& rows);
+
+// The law of LuGre, in a table of its own.
+void add_friction_rows(std::vector<KeyRow>& rows, const std::string& path);
+
+void add_clearance_rows(std::vector<KeyRow>& rows);
 void add_closure_rows(std::vector<KeyRow>& rows);
 
 }  // namespace linkstudy

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <numbers>
 
 #include "core/topology/check_linkage.h"
+#include "study/config/clearance_reader.h"
+#include "study/config/flexible_reader.h"
 #include "study/config/frame_reader.h"
+#include "study/config/joint_reader.h"
 #include "study/config/joint_units.h"
 #include "study/config/key.h"
 #include "study/config/load_reader.h"
@@ -30,7 +32,7 @@ Matrix3d read_inertia(const Tree& value) {
   return inertia;
 }
 
-Link read_link(const Tree& tree) {
+Link read_link(Tree& tree, Diagnostics& diagnostics) {
   Link link;
   link.name = word_of(tree, "name");
   link.mass = number_of(tree, "mass", 1.0);
@@ -48,6 +50,7 @@ Link read_link(const Tree& tree) {
     const bool centre_is_known = tree.find("center_of_mass")->is_valid();
     if (!mass_is_known || !centre_is_known) link.inertia = Matrix3d::Identity();
   }
+  link.flexible = read_flexible(tree, diagnostics);
   return link;
 }
 
@@ -59,8 +62,9 @@ class ModelReader {
     Linkage linkage;
     linkage.name = word_of(model_, "name");
     linkage.gravity = read_vector(model_.find("gravity"), Vector3d::Zero());
-    for_each("link", [&](Tree& tree) { linkage.links.push_back(read_link(tree)); });
-    for_each("joint", [&](Tree& tree) { linkage.joints.push_back(read_joint(tree)); });
+    for_each("link", [&](Tree& tree) { linkage.links.push_back(read_link(tree, diagnostics_)); });
+    for_each("joint",
+             [&](Tree& tree) { linkage.joints.push_back(read_joint(tree, diagnostics_)); });
     for_each("closure", [&](Tree& tree) { linkage.closures.push_back(read_closure(tree)); });
     for_each("load",
              [&](Tree& tree) { linkage.loads.push_back(read_load(tree, model_, diagnostics_)); });
@@ -79,80 +83,6 @@ class ModelReader {
     }
   }
 
-  Joint read_joint(Tree& tree) {
-    Joint joint;
-    const JointKind kind = joint_kind_of(tree);
-    const std::string subject = title("joint", tree);
-    joint.name = word_of(tree, "name");
-    joint.type = kind.type;
-    joint.coordinates = kind.coordinates;
-    joint.parent = word_of(tree, "parent");
-    joint.child = word_of(tree, "child");
-    if (const Tree* frame = tree.find("frame")) {
-      joint.frame = read_frame(*frame, subject + "frame: ", diagnostics_);
-    }
-    if (const Tree* frame = tree.find("child_frame")) {
-      joint.child_frame = read_frame(*frame, subject + "child_frame: ", diagnostics_);
-    }
-    // Written in m per revolution, kept in m/rad.
-    const bool is_screw = joint.type == JointType::screw;
-    if (is_screw) joint.pitch = number_of(tree, "pitch", 1.0) / (2.0 * std::numbers::pi);
-    Tree* initial = tree.find("initial");
-    if (initial != nullptr && initial->is(Kind::table)) read_start(*initial, kind, subject, joint);
-    return joint;
-  }
-
-  void read_start(Tree& initial, const JointKind& kind, const std::string& subject, Joint& joint) {
-    joint.hold = flag_of(initial, "hold");
-    if (!kind.is_known) return;
-    const std::vector<std::string> position = position_units(kind);
-    const std::vector<std::string> velocity = velocity_units(kind);
-    if (initial.find("position") == nullptr) {
-      relocate(initial.set("position", start_position(kind)), initial.at);
-    }
-    if (initial.find("velocity") == nullptr) {
-      const Tree rest(Tree::make_array(std::vector<Tree>(velocity.size(), Tree::make_number(0.0))));
-      relocate(initial.set("velocity", rest), initial.at);
-    }
-    joint.position =
-        read_start_values(*initial.find("position"), position, subject + "initial.position");
-    joint.velocity =
-        read_start_values(*initial.find("velocity"), velocity, subject + "initial.velocity");
-    if (position.size() != velocity.size()) normalise_quaternion(joint, initial);
-  }
-
-  std::vector<double> read_start_values(Tree& list, const std::vector<std::string>& units,
-                                        const std::string& subject) {
-    std::vector<double> values;
-    if (!list.is(Kind::array)) return values;
-    for (std::size_t i = 0; i < list.items.size(); ++i) {
-      Tree& item = list.items[i];
-      values.push_back(item.as_number());
-      if (i >= units.size() || item.text.empty() || item.text == units[i]) continue;
-      report_unit(item, fmt::format("{}.{}", subject, i), units[i], diagnostics_);
-      list.kind = Kind::invalid;
-      return {};
-    }
-    return values;
-  }
-
-  void normalise_quaternion(Joint& joint, Tree& initial) {
-    const auto count = static_cast<std::size_t>(position_count(joint.type, joint.coordinates));
-    if (joint.position.size() != count) return;
-    Eigen::Map<Eigen::Vector4d> q(joint.position.data() + count - 4);
-    if (std::abs(q.norm() - 1.0) <= kQuaternionTolerance) {
-      q.normalize();
-      return;
-    }
-    Tree& list = *initial.find("position");
-    diagnostics_.add(list.at,
-                     fmt::format("joint '{}': the quaternion in initial.position must have length "
-                                 "1, got length {:.6g}",
-                                 joint.name, q.norm()),
-                     "order w, x, y, z; divide by the length");
-    list.kind = Kind::invalid;
-  }
-
   ClosureEnd read_end(const Tree& closure, const char* key, const std::string& subject) {
     ClosureEnd end;
     const Tree* tree = closure.find(key);
@@ -169,7 +99,9 @@ class ModelReader {
     closure.type = joint_type_of(word_of(tree, "type")).value_or(JointType::spherical);
     closure.first = read_end(tree, "first", subject);
     closure.second = read_end(tree, "second", subject);
-    closure.model = word_of(tree, "model") == "sde" ? ClosureModel::sde : ClosureModel::cut;
+    const std::string model = word_of(tree, "model");
+    if (model == "sde") closure.model = ClosureModel::sde;
+    if (model == "clearance") closure.model = ClosureModel::clearance;
     const Tree* cut = tree.find("cut");
     if (cut != nullptr && cut->is(Kind::table)) {
       const std::string word = word_of(*cut, "stabilization");
@@ -179,6 +111,7 @@ class ModelReader {
       closure.beta = number_of(*cut, "beta", closure.beta);
     }
     read_sde(tree, closure, diagnostics_);
+    read_clearance(tree, closure, diagnostics_);
     return closure;
   }
 
@@ -195,6 +128,14 @@ SimulationOptions read_options(Tree& model, Diagnostics& diagnostics) {
   options.output_interval = number_of(*tree, "output_interval", options.output_interval);
   options.drift_limit = number_of(*tree, "drift_limit", options.drift_limit);
   if (word_of(*tree, "start") == "equilibrium") options.start = Start::equilibrium;
+  const std::string integrator = word_of(*tree, "integrator");
+  if (integrator == "adaptive") options.integrator = Integrator::adaptive;
+  if (integrator == "stiff") options.integrator = Integrator::stiff;
+  if (const Tree* tolerance = tree->find("tolerance"); tolerance != nullptr) {
+    options.relative_tolerance = number_of(*tolerance, "relative", options.relative_tolerance);
+    options.absolute_tolerance = number_of(*tolerance, "absolute", options.absolute_tolerance);
+  }
+  options.step_limit = integer_of(*tree, "step_limit", options.step_limit);
   const bool both_known = tree->find("step")->is_valid() && tree->find("end_time")->is_valid();
   if (both_known && options.step > options.end_time) {
     diagnostics.add(tree->find("step")->at,

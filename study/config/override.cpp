@@ -48,8 +48,9 @@ Tree zeros(std::size_t count) {
 std::optional<Tree> standard_array(const Tree& owner, const KeyNode& node) {
   if (node.standard) return node.standard;
   if (node.row.path == "joint.*.initial.position") return start_position(joint_kind_of(owner));
-  if (node.row.path == "joint.*.initial.velocity") {
-    return zeros(velocity_units(joint_kind_of(owner)).size());
+  for (const char* array : {"joint.*.initial.velocity", "joint.*.spring.stiffness",
+                            "joint.*.spring.damping", "joint.*.spring.rest"}) {
+    if (node.row.path == array) return zeros(velocity_units(joint_kind_of(owner)).size());
   }
   return std::nullopt;
 }

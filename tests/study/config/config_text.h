@@ -12,6 +12,9 @@ namespace linkstudy::test {
 // Link masses and inertias as in the reference set, closure S as a cut joint with an sde beside it.
 extern const std::string kRsrrp;
 
+// The same with a revolute clearance closure S, a spring and friction in A, a flexible coupler.
+std::string real_joints_text();
+
 // A file in the test's scratch folder.
 std::string write_file(const std::string& name, const std::string& text);
 

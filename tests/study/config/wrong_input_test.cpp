@@ -47,11 +47,8 @@ void PrintTo(const Wrong& wrong, std::ostream* out) {
   *out << wrong.what;
 }
 
-class WrongModel : public testing::TestWithParam<Wrong> {};
-
-TEST_P(WrongModel, Gives_one_error_at_the_marked_place) {
-  const Wrong& wrong = GetParam();
-  const Marked marked = without_mark(replaced(kRsrrp, wrong.from, wrong.to));
+void expect_one_error(const std::string& right, const Wrong& wrong) {
+  const Marked marked = without_mark(replaced(right, wrong.from, wrong.to));
   Diagnostics diagnostics;
   EXPECT_FALSE(read_text(marked.text, diagnostics));
   const std::vector<Diagnostic> found = diagnostics.sorted();
@@ -62,6 +59,19 @@ TEST_P(WrongModel, Gives_one_error_at_the_marked_place) {
   EXPECT_THAT(found[0].remedy, HasSubstr(wrong.remedy));
   EXPECT_FALSE(found[0].remedy.empty());
   EXPECT_EQ(found[0].file, "model.toml");
+}
+
+class WrongModel : public testing::TestWithParam<Wrong> {};
+
+TEST_P(WrongModel, Gives_one_error_at_the_marked_place) {
+  expect_one_error(kRsrrp, GetParam());
+}
+
+// The same linkage with clearance, friction, a spring and a flexible coupler.
+class WrongRealJoint : public testing::TestWithParam<Wrong> {};
+
+TEST_P(WrongRealJoint, Gives_one_error_at_the_marked_place) {
+  expect_one_error(test::real_joints_text(), GetParam());
 }
 
 const char* const kFrameR = "frame.euler_zyx = [0.0, 0.0, \"-90 deg\"]";
@@ -120,7 +130,7 @@ const Wrong kValues[] = {
     {"scalar_for_vector", kGravity, "gravity = @-9.81",
      "gravity must be an array of numbers in m/s^2, got -9.81"},
     {"two_starts_for_one", "initial.position = [\"25 cm\"]", "initial.position = @[0.25, 0.1]",
-     "initial.position must have 1 entries for this joint, got 2"},
+     "initial.position must have 1 entry for this joint, got 2"},
     {"step_past_the_end", "end_time = 15.0\nstep = 1.0e-4", "end_time = 1e-3\nstep = @1.0e-2",
      "simulation.step must not exceed end_time = 0.001 s, got 0.01 s"},
     {"negative_damping", kSde, "sde = { stiffness = 1e6, damping = @-1.0 }",
@@ -199,18 +209,8 @@ const Wrong kWords[] = {
      "joint 'P': type must be one of revolute", "did you mean 'prismatic'?"},
     {"spelled_otherwise", "start = \"equilibrium\"", "start = @\"Equilibrium\"",
      "start must be one of given, equilibrium", "did you mean 'equilibrium'?"},
-    {"planned_integrator", "integrator = \"rk4\"", "integrator = @\"adaptive\"",
-     "integrator = 'adaptive' is not supported in this version", "supported: rk4"},
-    {"planned_stiff", "integrator = \"rk4\"", "integrator = @\"stiff\"",
-     "not supported in this version"},
-    {"planned_clearance", "model  = \"cut\"", "model  = @\"clearance\"",
-     "model = 'clearance' is not supported in this version", "supported: cut, sde"},
-    {"planned_friction", "name = \"S\"\n", "name = \"S\"\n@friction = { mu_s = 0.2 }\n",
-     "closure 'S': friction is not supported in this version", "smooth"},
-    {"planned_flexible", kYoke, "name = \"yoke\"\nmass = 0.2\n@flexible = { segments = 4 }",
-     "link 'yoke': flexible is not supported in this version", "rigid"},
-    {"planned_clearance_table", "name = \"S\"\n", "name = \"S\"\n@clearance.radial = 1e-3\n",
-     "clearance is not supported in this version", "model cut or sde"},
+    {"unknown_integrator", "integrator = \"rk4\"", "integrator = @\"rk45\"",
+     "integrator must be one of rk4, adaptive, stiff", "did you mean 'rk4'?"},
     {"closure_of_a_screw", "type = \"spherical\"", "type = @\"screw\"",
      "closure 'S': type must be one of spherical, revolute"},
     {"other_format", "format = 1", "format = @2", "format must be 1, got 2"},
@@ -219,6 +219,72 @@ const Wrong kWords[] = {
     {"planned_kind", "kind = \"model\"", "kind = @\"converge\"",
      "kind = 'converge' is not supported", "supported: model, study, tune"},
     {"study_for_model", "kind = \"model\"", "kind = @\"study\"", "a model is expected here"},
+};
+
+const Wrong kRealJoints[] = {
+    {"clearance_of_a_ball", "type = \"revolute\"\nfirst", "type = @\"spherical\"\nfirst",
+     "closure 'S': model = \"clearance\" is for a closure of type revolute", "revolute"},
+    {"clearance_without_its_table",
+     "model = \"clearance\"\nclearance = { radial = 1e-3, bearing_radius = 5e-3 }",
+     "model = @\"clearance\"",
+     "model = 'clearance' needs the keys clearance.radial and clearance.bearing_radius",
+     "radial = \"1 mm\""},
+    {"no_radius", "{ radial = 1e-3, bearing_radius = 5e-3 }", "@{ radial = 1e-3 }",
+     "closure 'S': clearance.bearing_radius is missing"},
+    {"clearance_below_zero", "radial = 1e-3,", "radial = @\"-1 mm\",",
+     "closure 'S': clearance.radial must be positive, got -0.001 m"},
+    {"journal_of_no_radius", "bearing_radius = 5e-3", "bearing_radius = @1e-3",
+     "clearance.bearing_radius must exceed clearance.radial = 0.001"},
+    {"spatial_without_length", "clearance = { radial", "clearance = @{ kind = \"spatial\", radial",
+     "clearance.length must be positive"},
+    {"restitution_above_one", "restitution = 0.9", "restitution = @1.1",
+     "closure 'S': contact.restitution must lie in (0, 1], got 1.1"},
+    {"stiffness_with_a_unit", "restitution = 0.9", "stiffness = @\"1e9 N/m\"",
+     "contact.stiffness must be a number, got '1e9 N/m'", "plain number"},
+    {"exponent_without_stiffness", "restitution = 0.9", "exponent = @2.0",
+     "contact.exponent must be 1.5 where K follows from the materials, got 2",
+     "give contact.stiffness"},
+    {"unknown_law", "restitution = 0.9", "law = @\"hertz\"",
+     "contact.law must be one of lankarani_nikravesh, flores, hunt_crossley"},
+    {"less_static_than_kinetic", "mu_s = 0.3", "mu_s = @0.1",
+     "joint 'A': friction.mu_s must not be below friction.mu_k = 0.2, got 0.1"},
+    {"friction_without_bristle", "{ mu_s = 0.3, mu_k = 0.2, sigma0 = 1e5, radius = 0.01 }",
+     "@{ mu_s = 0.3, mu_k = 0.2, radius = 0.01 }", "joint 'A': friction.sigma0 is missing",
+     "in 1/m"},
+    {"no_stribeck_speed", "mu_s = 0.3", "mu_s = 0.3, stribeck_speed = @0.0",
+     "joint 'A': friction.stribeck_speed must be positive, got 0 m/s"},
+    {"friction_without_radius", "radius = 0.01", "radius = @0.0",
+     "joint 'A': friction.radius must be positive, got 0"},
+    {"friction_of_a_screw", "name = \"A\"\ntype = \"revolute\"\nfriction",
+     "name = \"A\"\ntype = \"screw\"\npitch = 1.0\n@friction",
+     "joint 'A': friction does not go with type = 'screw'", "revolute, prismatic, cylindrical"},
+    {"spring_of_a_turn_in_newton", "stiffness = [\"3 N m/rad\"]", "stiffness = [@\"3 N/m\"]",
+     "joint 'A': spring.stiffness.0 must be in N m/rad here, got a value in N/m"},
+    {"two_springs_for_one", "stiffness = [\"3 N m/rad\"]", "stiffness = @[1, 2]",
+     "joint 'A': spring.stiffness must have 1 entry for this joint, got 2"},
+    {"spring_that_pushes_away", "stiffness = [\"3 N m/rad\"]", "stiffness = [@-3]",
+     "joint 'A': spring.stiffness.0 must not be negative, got -3"},
+    {"half_a_segment", "segments = 4", "segments = @2.5",
+     "flexible.segments must be an integer, got 2.5"},
+    {"no_segment", "segments = 4", "segments = @0",
+     "link 'coupler': flexible.segments must lie in [1, 200], got 0"},
+    {"beam_without_end", "flexible = { segments = 4, end = [0, 0.5, 0], ",
+     "flexible = @{ segments = 4, ", "link 'coupler': flexible.end is missing"},
+    {"beam_of_no_length", "end = [0, 0.5, 0]", "end = @[0, 0, 0]",
+     "flexible.begin and flexible.end are the same point"},
+    {"beam_beside_the_centre", "center_of_mass = [0.0, 0.25, 0.0]",
+     "center_of_mass = @[0.0, 0.2, 0.0]", "its center_of_mass in the middle [0, 0.25, 0]"},
+    {"across_along", "segments = 4", "across = @[0, 1, 0]",
+     "flexible.across must point across the beam"},
+    {"no_across", "segments = 4", "across = @[0, 0, 0]",
+     "link 'coupler': flexible.across must not be zero"},
+    {"size_of_another_shape", "diameter = 0.02", "diameter = 0.02, @outer = 0.03",
+     "flexible.section.outer does not go with shape = 'circle'", "tube"},
+    {"tube_inside_out", "shape = \"circle\", diameter = 0.02",
+     "shape = \"tube\", outer = 0.02, inner = @0.03",
+     "flexible.section.inner must be below outer = 0.02 m, got 0.03 m"},
+    {"negative_tolerance", "integrator = \"rk4\"", "tolerance.relative = @-1e-6",
+     "simulation.tolerance.relative must be positive, got -1e-06"},
 };
 
 const Wrong kRotations[] = {
@@ -335,6 +401,7 @@ std::string name_of_case(const testing::TestParamInfo<Wrong>& info) {
 INSTANTIATE_TEST_SUITE_P(Values, WrongModel, testing::ValuesIn(kValues), name_of_case);
 INSTANTIATE_TEST_SUITE_P(Keys, WrongModel, testing::ValuesIn(kKeys), name_of_case);
 INSTANTIATE_TEST_SUITE_P(Words, WrongModel, testing::ValuesIn(kWords), name_of_case);
+INSTANTIATE_TEST_SUITE_P(Wrong, WrongRealJoint, testing::ValuesIn(kRealJoints), name_of_case);
 INSTANTIATE_TEST_SUITE_P(Rotations, WrongModel, testing::ValuesIn(kRotations), name_of_case);
 INSTANTIATE_TEST_SUITE_P(Structure, WrongModel, testing::ValuesIn(kStructure), name_of_case);
 INSTANTIATE_TEST_SUITE_P(Syntax, WrongModel, testing::ValuesIn(kSyntax), name_of_case);
