@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/flexible/rigid_finite_elements.h"
 #include "core/topology/nearest_name.h"
 #include "study/config/joint_units.h"
 #include "study/config/toml_reader.h"
@@ -79,6 +80,7 @@ std::optional<ModelInput> ModelDocument::with(std::span<const Override> override
   ModelInput input = read_model(std::move(tree), found);
   diagnostics.append(found);
   if (!found.empty()) return std::nullopt;
+  input.linkage = expand_flexible_links(input.linkage);
   return input;
 }
 

@@ -16,7 +16,8 @@ class ModelDocument {
   static std::optional<ModelDocument> parse(std::string_view text, const std::string& file,
                                             Diagnostics& diagnostics);
 
-  // The model with these values set, in their order. Nothing when anything was reported.
+  // The model with these values set, in their order, its flexible links as chains of rigid finite
+  // elements: what everything else works on. Nothing when anything was reported.
   std::optional<ModelInput> with(std::span<const Override> overrides,
                                  Diagnostics& diagnostics) const;
 
