@@ -58,6 +58,12 @@ Solution solve(const Matrix& a, const Matrix& J, const Vector& force, const Vect
   return {x.head(n), x.tail(m), false};
 }
 
+// Rows that hold: those of the cut joint, or what a planar clearance leaves of it.
+std::vector<ClosureRow> held_rows(const Closure& closure, const ClosureFrames& frames) {
+  const bool loose = closure.model == ClosureModel::clearance;
+  return cut_rows(frames, loose ? JointType::planar : closure.type);
+}
+
 // Columns of joints that may not move are cleared.
 Matrix without_held(const TraceModel& model, Matrix J) {
   for (const Joint& joint : model.linkage.joints) {
@@ -78,13 +84,15 @@ Vector minimum_norm(const Matrix& J, const Vector& right) {
 }  // namespace
 
 OracleResult oracle_acceleration(const TraceModel& model, double t, const Vector& q,
-                                 const Vector& v) {
+                                 const Vector& v, const std::vector<OracleContact>& contacts) {
   const std::vector<LinkTransform> transforms = link_transforms(model, q);
   const TreeEquations tree = tree_equations(model, transforms, v);
-  Vector force = generalised_loads(model, transforms, t, v) - tree.velocity - tree.gravity;
+  Vector force = generalised_loads(model, transforms, t, v) + joint_springs(model, q, v) -
+                 tree.velocity - tree.gravity;
 
   OracleResult result;
   result.closures.resize(model.closures.size());
+  result.contacts.resize(model.closures.size());
   std::vector<CutClosure> cuts;
   int row_count = 0;
   for (std::size_t c = 0; c < model.closures.size(); ++c) {
@@ -94,7 +102,12 @@ OracleResult oracle_acceleration(const TraceModel& model, double t, const Vector
       result.closures[c] = sde_result(closure, frames);
       force += result.closures[c].generalised;
     } else {
-      std::vector<ClosureRow> rows = cut_rows(frames, closure.closure.type);
+      if (closure.closure.model == ClosureModel::clearance) {
+        result.contacts[c] =
+            contact_result(closure, frames, contacts.empty() ? OracleContact{} : contacts.at(c));
+        force += result.contacts[c].generalised;
+      }
+      std::vector<ClosureRow> rows = held_rows(closure.closure, frames);
       row_count += static_cast<int>(rows.size());
       cuts.push_back({static_cast<int>(c), std::move(frames), std::move(rows)});
     }
@@ -132,9 +145,9 @@ Constraints cut_constraints(const TraceModel& model, const Vector& q, const Vect
   const std::vector<LinkTransform> transforms = link_transforms(model, q);
   std::vector<ClosureRow> rows;
   for (const TraceClosure& closure : model.closures) {
-    if (closure.closure.model != ClosureModel::cut) continue;
+    if (closure.closure.model == ClosureModel::sde) continue;
     const ClosureFrames frames = closure_frames(model, closure, transforms, v);
-    for (ClosureRow& row : cut_rows(frames, closure.closure.type)) rows.push_back(std::move(row));
+    for (ClosureRow& row : held_rows(closure.closure, frames)) rows.push_back(std::move(row));
   }
   const int m = static_cast<int>(rows.size());
   Constraints constraints{Vector(m), Matrix(m, model.dof), Vector(m)};
@@ -178,11 +191,15 @@ OracleState rk4(const TraceModel& model, double h, long steps, OracleState state
 }
 
 double total_energy(const TraceModel& model, const OracleState& state) {
-  double energy = kinetic_energy(model, state.q, state.v) + gravity_energy(model, state.q);
+  double energy = kinetic_energy(model, state.q, state.v) + gravity_energy(model, state.q) +
+                  spring_energy(model, state.q);
   const std::vector<LinkTransform> transforms = link_transforms(model, state.q);
   for (const TraceClosure& closure : model.closures) {
-    if (closure.closure.model != ClosureModel::sde) continue;
-    energy += sde_result(closure, closure_frames(model, closure, transforms, state.v)).energy;
+    const ClosureFrames frames = closure_frames(model, closure, transforms, state.v);
+    if (closure.closure.model == ClosureModel::sde) energy += sde_result(closure, frames).energy;
+    if (closure.closure.model == ClosureModel::clearance) {
+      energy += contact_result(closure, frames, {}).stored;
+    }
   }
   return energy;
 }

@@ -16,6 +16,20 @@ double table_value(const Course& course, double t) {
   return course.values[k - 1] + part * (course.values[k] - course.values[k - 1]);
 }
 
+double entry(const std::vector<double>& of_joint, std::size_t k) {
+  return of_joint.empty() ? 0.0 : of_joint.at(k);
+}
+
+// Calls f with every coordinate, its joint and its number in the joint.
+template <class F>
+void for_coordinates(const TraceModel& model, F&& f) {
+  for (const Joint& joint : model.linkage.joints) {
+    const std::size_t count = basic_motions(joint).size();
+    const int first = count > 0 ? coordinate_index(model, joint.name) : 0;
+    for (std::size_t k = 0; k < count; ++k) f(first + static_cast<int>(k), joint, k);
+  }
+}
+
 }  // namespace
 
 double course_value(const Course& course, double t) {
@@ -59,6 +73,24 @@ Vector generalised_loads(const TraceModel& model, const std::vector<LinkTransfor
     }
   }
   return Q;
+}
+
+Vector joint_springs(const TraceModel& model, const Vector& q, const Vector& v) {
+  Vector Q = Vector::Zero(model.dof);
+  for_coordinates(model, [&](int i, const Joint& joint, std::size_t k) {
+    const double stretch = q[i] - entry(joint.rest, k);
+    Q[i] -= entry(joint.stiffness, k) * stretch + entry(joint.damping, k) * v[i];
+  });
+  return Q;
+}
+
+double spring_energy(const TraceModel& model, const Vector& q) {
+  double energy = 0.0;
+  for_coordinates(model, [&](int i, const Joint& joint, std::size_t k) {
+    const double stretch = q[i] - entry(joint.rest, k);
+    energy += 0.5 * entry(joint.stiffness, k) * stretch * stretch;
+  });
+  return energy;
 }
 
 }  // namespace linkstudy::testing

@@ -14,6 +14,10 @@ double resistance_value(const ResistanceLaw& law,
 Vector generalised_loads(const TraceModel& model, const std::vector<LinkTransform>& transforms,
                          double t, const Vector& v);
 
+// Springs and dampers of joints: -c (q - rest) - b v on their coordinates, and 1/2 c (q - rest)^2.
+Vector joint_springs(const TraceModel& model, const Vector& q, const Vector& v);
+double spring_energy(const TraceModel& model, const Vector& q);
+
 // Direction of a link_force or link_torque in ground axes.
 Eigen::Vector3d load_direction(const TraceLoad& load, const std::vector<LinkTransform>& transforms);
 

@@ -93,8 +93,9 @@ void add_joints(TraceModel& model) {
 
 void add_closures(TraceModel& model) {
   for (const Closure& closure : model.linkage.closures) {
-    if (closure.model == ClosureModel::clearance) {
-      throw std::invalid_argument(fmt::format("oracle: closure '{}' has clearance", closure.name));
+    if (closure.model == ClosureModel::clearance &&
+        closure.clearance.kind != ClearanceKind::planar) {
+      throw std::invalid_argument(fmt::format("oracle: closure '{}' is not planar", closure.name));
     }
     TraceClosure traced;
     traced.closure = closure;

@@ -61,7 +61,7 @@ struct TraceModel {
 // Velocities are stacked in this order. Throws when a joint never finds its parent.
 std::vector<int> tree_order(const Linkage& linkage);
 
-// Throws for quaternion coordinates (see zyx_equivalent.h), clearance closures, unknown names.
+// Throws for quaternion coordinates (see zyx_equivalent.h), spatial clearance, unknown names.
 // A damping_ratio becomes damping coefficients at the start pose.
 TraceModel make_trace_model(const Linkage& linkage);
 
