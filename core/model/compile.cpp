@@ -151,7 +151,8 @@ bool starts_with_ground_axes(const std::vector<Row>& rows, const ClosureStructur
 
 class Compiler {
  public:
-  explicit Compiler(const Linkage& linkage) : linkage_(linkage) {}
+  Compiler(const Linkage& linkage, const std::vector<unsigned>& idle)
+      : linkage_(linkage), idle_(idle) {}
 
   Model run() {
     parameters().gravity = to_vec3(linkage_.gravity);
@@ -388,8 +389,10 @@ class Compiler {
   }
 
   void add_cut_rows(const Closure& closure, int index) {
-    const unsigned blocked = held_directions(closure);
-    const unsigned translations = blocked & 7u;
+    const auto i = static_cast<std::size_t>(index);
+    const unsigned idle = i < idle_.size() ? idle_[i] : 0u;
+    const unsigned blocked = held_directions(closure) & ~idle;
+    const unsigned translations = held_directions(closure) & 7u;
     const RowKind kind =
         translations == 7u ? RowKind::translation_ground : RowKind::translation_first;
     for (int d = kX; d <= kZ; ++d) {
@@ -505,6 +508,7 @@ class Compiler {
   }
 
   const Linkage& linkage_;
+  const std::vector<unsigned>& idle_;
   Model model_;
   std::map<std::string, int> body_of_;
   std::vector<Frame> link_frames_;  // frame of the link in its body's internal frame
@@ -516,8 +520,8 @@ Frame link_in_body(const Joint& joint) {
   return inverse(joint.child_frame);
 }
 
-Model compile(const Linkage& linkage) {
-  return Compiler(linkage).run();
+Model compile(const Linkage& linkage, const std::vector<unsigned>& idle) {
+  return Compiler(linkage, idle).run();
 }
 
 namespace {

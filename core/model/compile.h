@@ -17,7 +17,8 @@ struct Model {
 
 // Precondition: check(linkage) is empty. Bodies follow the order of Linkage::joints wherever that
 // puts parents before children. Damping given as a ratio is zero until resolve_damping (dynamics).
-Model compile(const Linkage& linkage);
+// `idle`: for every closure the directions whose cut rows are left out (core/kinematics/idle_rows).
+Model compile(const Linkage& linkage, const std::vector<unsigned>& idle = {});
 
 // Frame of a link in its body's internal frame: the inverse of the joint's child frame.
 Frame link_in_body(const Joint& joint);

@@ -7,6 +7,7 @@
 
 #include "core/dynamics/effective_mass.h"
 #include "core/dynamics/motion.h"
+#include "core/kinematics/idle_rows.h"
 #include "core/numerics/rank.h"
 #include "core/simulation/simulate.h"
 
@@ -27,11 +28,12 @@ void fail(Preparation& p, Cause cause, std::string message) {
 }
 
 // Replacement joints have no multipliers: only cut joints can be redundant.
-void warn_of_redundancy(Preparation& p) {
+void warn_of_redundancy(const Linkage& linkage, Preparation& p) {
+  const int rows = compile(linkage).mechanism.cut_row_count();
+  const int held = p.model.mechanism.cut_row_count();
   const ClosureEquations e =
       compute_closure_equations(p.model.mechanism, p.model.parameters, p.model.start);
-  const int rows = static_cast<int>(e.jacobian.rows());
-  const int rank = numerical_rank(e.jacobian, kRankTolerance).rank;
+  const int rank = held > 0 ? numerical_rank(e.jacobian, kRankTolerance).rank : 0;
   if (rank == rows) return;
   p.warnings.push_back(std::to_string(rows - rank) + " of " + std::to_string(rows) +
                        " closure equations are redundant at the start: multipliers are those "
@@ -40,7 +42,7 @@ void warn_of_redundancy(Preparation& p) {
   const bool drifts = std::any_of(closures.begin(), closures.end(), [](const auto& c) {
     return c.model == ClosureModel::cut && c.stabilization == Stabilization::none;
   });
-  if (!drifts) return;
+  if (rank == held || !drifts) return;
   p.warnings.push_back(
       "redundant cut joints without stabilization drift apart, which may change how many equations "
       "are redundant: use stabilization = \"baumgarte\" or \"projection\"");
@@ -61,7 +63,7 @@ void warn_of_flipped(const AssemblyReport& a, Preparation& p) {
   }
 }
 
-bool assemble(const Model& closed, Preparation& p) {
+bool assemble(const Linkage& linkage, const Model& closed, Preparation& p) {
   p.assembly = assemble_start(closed, p.model.start);
   const AssemblyReport& a = p.assembly;
   if (!a.closed) {
@@ -76,7 +78,7 @@ bool assemble(const Model& closed, Preparation& p) {
                          std::to_string(a.restarts) + ", " + number(a.displacement) + " away");
   }
   warn_of_flipped(a, p);
-  warn_of_redundancy(p);
+  warn_of_redundancy(linkage, p);
   return true;
 }
 
@@ -137,9 +139,9 @@ void warn_of_tilt(const Linkage& linkage, Preparation& p) {
 
 Preparation prepare(const Linkage& linkage, const SimulationOptions& options) {
   Preparation p;
-  p.model = compile(linkage);
+  p.model = compile(linkage, find_idle_directions(linkage));
   const Model closed = compile_closed(linkage);
-  if (!assemble(closed, p)) return p;
+  if (!assemble(linkage, closed, p)) return p;
   resolve_damping(linkage, p.model.start, p.model);
   const std::vector<double> velocities = p.model.start.v;
   if (options.start == Start::equilibrium) {

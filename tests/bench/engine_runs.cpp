@@ -30,7 +30,7 @@ EngineRun::EngineRun(const Model& model, int lanes, double step, long steps)
     : model_(model), lanes_(lanes), step_(step), steps_(steps) {
   y_ = model.start.q;
   y_.insert(y_.end(), model.start.v.begin(), model.start.v.end());
-  y_.insert(y_.end(), 2, 0.0);
+  y_.insert(y_.end(), static_cast<std::size_t>(model.mechanism.nz) + 2, 0.0);
   reference_.assign(3 * (static_cast<std::size_t>(steps) + 1), 1.0);
   observers_.resize(static_cast<std::size_t>(lanes));
   for (auto& o : observers_) {

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <limits>
 
+#include "tests/mechanisms/journal_in_bearing.h"
 #include "tests/mechanisms/n_four_bar.h"
 #include "tests/mechanisms/pendulum.h"
 #include "tests/mechanisms/random_linkages.h"
@@ -39,6 +40,10 @@ Case make_case(const Linkage& linkage, int i, long steps) {
   }
   for (Closure& c : changed.closures) {
     for (double& x : c.sde.stiffness) x *= 1.0 + 0.1 * i;
+    if (c.model != ClosureModel::clearance) continue;
+    // Each lane meets its bearing at another step.
+    for (double& x : changed.joints[0].velocity) x *= 1.0 + 0.07 * i;
+    c.clearance.radial *= 1.0 - 0.02 * i;
   }
   Case made{compile(changed), {}, {}};
   made.observers = watch_everything(made.model, steps);
@@ -69,6 +74,10 @@ bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
   if (a.outcome.message != b.outcome.message) return differ("message");
   if (!same_bits(a.outcome.final_state.q, b.outcome.final_state.q)) return differ("positions");
   if (!same_bits(a.outcome.final_state.v, b.outcome.final_state.v)) return differ("velocities");
+  if (!same_bits(a.outcome.final_state.z, b.outcome.final_state.z)) return differ("bristles");
+  if (a.outcome.contacts != b.outcome.contacts) return differ("contacts");
+  if (a.outcome.least_contact_steps != b.outcome.least_contact_steps)
+    return differ("contact steps");
   if (!same_bits({a.outcome.drift_max, a.outcome.energy_residual_max, a.outcome.energy_scale},
                  {b.outcome.drift_max, b.outcome.energy_residual_max, b.outcome.energy_scale})) {
     return differ("drift or energy");
@@ -82,6 +91,36 @@ bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
     return differ("reduction");
   }
   return ::testing::AssertionSuccess();
+}
+
+// Contacts, friction and springs in joints. The contacts are soft enough for the steps.
+std::vector<Linkage> loose_linkages() {
+  std::vector<Linkage> all;
+  for (const ClearanceKind kind : {ClearanceKind::planar, ClearanceKind::spatial}) {
+    JournalInBearing j;
+    j.kind = kind;
+    j.velocity = {0.6, 0.2, 0.0};
+    j.turning = {kind == ClearanceKind::spatial ? 8.0 : 0.0, 0.0, 30.0};
+    Clearance c = loose_bearing();
+    c.stiffness = 1e7;
+    c.friction = table_1_friction();
+    for (const FreeBristle rule : {FreeBristle::reset, FreeBristle::relax, FreeBristle::hold}) {
+      c.free_bristle = rule;
+      all.push_back(journal_in_bearing(j, c));
+    }
+    c.exponent = 1.4;
+    c.stiffness = 3e6;
+    all.push_back(journal_in_bearing(j, c));
+  }
+  Linkage rubbing = rsrrp();
+  for (Joint& joint : rubbing.joints) {
+    joint.friction = JointFriction{table_1_friction(), 0.01, 0.05, 3.0};
+    joint.stiffness = {2.0};
+    joint.damping = {0.1};
+    joint.velocity = {0.0};
+  }
+  all.push_back(rubbing);
+  return all;
 }
 
 // All kinds of joints, closures and loads that there are.
@@ -102,6 +141,7 @@ std::vector<Linkage> linkages() {
     }
     all.push_back(random_closed_linkage(4, type, ClosureModel::sde));
   }
+  for (const Linkage& loose : loose_linkages()) all.push_back(loose);
   return all;
 }
 
