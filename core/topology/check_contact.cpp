@@ -71,11 +71,11 @@ void check_friction(const Friction& friction, RecordCheck& record) {
                       ", got " + text_of(friction.mu_s),
                   "static friction is the larger; give mu_s = mu_k for none beyond the kinetic");
   }
-  record.require_positive("friction.v_s", friction.v_s);
+  record.require_positive("friction.stribeck_speed", friction.v_s);
   record.require_positive("friction.sigma0", friction.sigma0);
   record.require_not_negative("friction.sigma1", friction.sigma1);
   record.require_not_negative("friction.sigma2", friction.sigma2);
-  record.require_not_negative("friction.v_d", friction.v_d);
+  record.require_not_negative("friction.damping_speed", friction.v_d);
 }
 
 void check_joint_friction(const Joint& joint, RecordCheck& record) {
@@ -107,8 +107,8 @@ void check_clearance(const Closure& closure, RecordCheck& record) {
   if (!clearance.friction) return;
   check_friction(*clearance.friction, record);
   if (clearance.free_bristle == FreeBristle::relax && clearance.friction->sigma1 == 0.0) {
-    record.report("friction.free_bristle",
-                  "friction.free_bristle = \"relax\" takes the time sigma1 / sigma0, but "
+    record.report("contact.free_bristle",
+                  "contact.free_bristle = \"relax\" takes the time sigma1 / sigma0, but "
                   "friction.sigma1 is 0",
                   "use \"reset\", or give sigma1 above 0");
   }

@@ -12,7 +12,7 @@
 namespace linkstudy {
 namespace {
 
-constexpr int kMostSegments = 1000;  // dense matrices of 3 freedoms a segment
+constexpr int kMostSegments = 200;  // dense matrices of 3 freedoms a segment
 constexpr double kCenterTolerance = 1.0e-6;
 constexpr double kAxisTolerance = 1.0e-6;
 constexpr double kMomentTolerance = 1.0e-8;
@@ -52,9 +52,9 @@ void check_section(const FlexibleBeam& beam, RecordCheck& record) {
   }
   record.require_positive("flexible.young", beam.young);
   record.require_positive("flexible.shear", beam.shear);
-  record.require_positive("flexible.second_moment_y", beam.second_moment_y);
-  record.require_positive("flexible.second_moment_z", beam.second_moment_z);
-  record.require_positive("flexible.torsion_constant", beam.torsion_constant);
+  record.require_positive("flexible.section.second_moment_y", beam.second_moment_y);
+  record.require_positive("flexible.section.second_moment_z", beam.second_moment_z);
+  record.require_positive("flexible.section.torsion_constant", beam.torsion_constant);
   record.require_not_negative("flexible.retardation", beam.retardation);
 }
 

@@ -176,12 +176,13 @@ TEST(CheckClearance, Contact_values_are_those_of_a_contact) {
 }
 
 TEST(CheckFriction, Every_value_of_the_law_is_located) {
-  EXPECT_THAT(
-      paths_with(
-          [](Clearance& c) { c.friction = Friction{-1.0, 0.0, 0.0, 0.0, -1.0, -1.0, -1.0}; }),
-      ElementsAre("closure.R.friction.mu_k", "closure.R.friction.mu_s", "closure.R.friction.v_s",
-                  "closure.R.friction.sigma0", "closure.R.friction.sigma1",
-                  "closure.R.friction.sigma2", "closure.R.friction.v_d"));
+  EXPECT_THAT(paths_with([](Clearance& c) {
+                c.friction = Friction{-1.0, 0.0, 0.0, 0.0, -1.0, -1.0, -1.0};
+              }),
+              ElementsAre("closure.R.friction.mu_k", "closure.R.friction.mu_s",
+                          "closure.R.friction.stribeck_speed", "closure.R.friction.sigma0",
+                          "closure.R.friction.sigma1", "closure.R.friction.sigma2",
+                          "closure.R.friction.damping_speed"));
 }
 
 TEST(CheckFriction, Static_friction_is_not_below_kinetic) {
@@ -196,7 +197,7 @@ TEST(CheckFriction, A_bristle_relaxes_in_a_time_or_not_at_all) {
                 c.free_bristle = FreeBristle::relax;
                 c.friction->sigma1 = 0.0;
               }),
-              ElementsAre("closure.R.friction.free_bristle"));
+              ElementsAre("closure.R.contact.free_bristle"));
 }
 
 TEST(CheckFriction, Joints_that_rub_are_revolute_prismatic_or_cylindrical) {

@@ -80,8 +80,9 @@ TEST(CheckFlexible, Numbers_of_the_section_are_positive_and_located) {
         b.segments = 0;
       }),
       ElementsAre("link.coupler.flexible.segments", "link.coupler.flexible.young",
-                  "link.coupler.flexible.shear", "link.coupler.flexible.second_moment_y",
-                  "link.coupler.flexible.second_moment_z", "link.coupler.flexible.torsion_constant",
+                  "link.coupler.flexible.shear", "link.coupler.flexible.section.second_moment_y",
+                  "link.coupler.flexible.section.second_moment_z",
+                  "link.coupler.flexible.section.torsion_constant",
                   "link.coupler.flexible.retardation"));
   EXPECT_THAT(paths_with([](Link& link) { link.flexible->segments = 1000000; }),
               ElementsAre("link.coupler.flexible.segments"));
