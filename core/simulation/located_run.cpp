@@ -240,7 +240,7 @@ class LocatedRun {
     time_ = event.t;
     settle(y_.data());
     look_at(y_.data(), begin_.data());
-    for (ContactPhase& phase : phases_) phase.fresh = false;
+    for (ContactPhase& phase : phases_) phase.fresh &= event.t == integrator_->t_old();
     phases_[i] = {!phases_[i].touching, true};
     set_memory(i, begin_[i].rate);
     if (phases_[i].touching) {

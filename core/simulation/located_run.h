@@ -18,7 +18,7 @@
 
 namespace linkstudy {
 
-inline constexpr long kMostContacts = 100'000;
+inline constexpr long kMostContacts = 20'000;
 
 struct LocatedReport {
   double end_time = 0.0;  // reached, s

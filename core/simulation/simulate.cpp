@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/simulation/kernels.h"
+#include "core/simulation/located_run.h"
 
 namespace linkstudy {
 namespace {
@@ -37,6 +38,11 @@ std::string describe_end(Cause cause, double t) {
       return "cut joints opened beyond simulation.drift_limit" + at;
     case Cause::energy_blowup:
       return "energy left the ledger" + at;
+    case Cause::step_budget:
+      return "simulation.step_limit used up" + at;
+    case Cause::contact_budget:
+      return "more than " + std::to_string(kMostContacts) +
+             " contacts began within one output interval" + at;
     case Cause::timeout:
       return "wall time of the run used up";
     case Cause::cancelled:
@@ -66,18 +72,32 @@ class Packed {
   }
 
   void run(const SimulationOptions& options, Watch& watch, const Kernel& kernel) {
-    const StepGrid grid = make_step_grid(options);
-    const double t0 = cases_[0].start->t;
-    const long stride = std::max(1L, std::lround(options.output_interval / grid.h));
-    const KernelRun setting{t0,          grid.h, grid.count, stride, options.drift_limit,
-                            Watch::poll, &watch};
+    const KernelRun setting = setting_of(options, watch);
     kernel.run(m_, setting, lanes_.data(), static_cast<int>(lanes_.size()));
-    for (std::size_t i = 0; i < cases_.size(); ++i) store(i, t0, grid.h);
+    for (std::size_t i = 0; i < cases_.size(); ++i) {
+      const long steps = ends_[i].steps;
+      const double reached = setting.t0 + static_cast<double>(steps) * setting.h;
+      store(i, {reached, steps, 0, kStepEvaluations * steps, 0});
+    }
+  }
+
+  // The first case, with contacts located.
+  void run_adaptive(const SimulationOptions& options, Watch& watch) {
+    store(0, run_located(m_, options, setting_of(options, watch), lanes_[0]));
   }
 
   bool abandoned(std::size_t i) const { return ends_[i].abandoned; }
 
  private:
+  static constexpr long kStepEvaluations = 4;
+
+  KernelRun setting_of(const SimulationOptions& options, Watch& watch) const {
+    const StepGrid grid = make_step_grid(options);
+    const long stride = std::max(1L, std::lround(options.output_interval / grid.h));
+    return {cases_[0].start->t,  grid.h,      grid.count, stride,
+            options.drift_limit, Watch::poll, &watch};
+  }
+
   void add(std::size_t i) {
     const BatchCase& c = cases_[i];
     size_observers(*c.observers);
@@ -93,13 +113,15 @@ class Packed {
         {c.parameters, y.data(), final_y.data(), c.observers, samples_[i].data(), &ends_[i]});
   }
 
-  void store(std::size_t i, double t0, double h) {
+  void store(std::size_t i, const LocatedReport& report) {
     const LaneEnd& end = ends_[i];
     SimulationOutcome& o = cases_[i].outcome;
     o = {};
     o.cause = end.cause;
-    o.steps = end.steps;
-    o.end_time = t0 + static_cast<double>(end.steps) * h;
+    o.steps = report.steps;
+    o.rejected = report.rejected;
+    o.evaluations = report.evaluations;
+    o.end_time = report.end_time;
     o.message = describe_end(end.cause, o.end_time);
     o.drift_max = end.drift_max;
     o.energy_residual_max = end.energy_residual_max;
@@ -153,6 +175,14 @@ void run_pack(const Mechanism& m, const SimulationOptions& options, std::span<Ba
   }
 }
 
+void run_each(const Mechanism& m, const SimulationOptions& options, std::span<BatchCase> cases,
+              const RunLimits& limits) {
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    Watch watch{limits};
+    Packed(m, cases.subspan(i, 1)).run_adaptive(options, watch);
+  }
+}
+
 }  // namespace
 
 StepGrid make_step_grid(const SimulationOptions& options) {
@@ -179,6 +209,7 @@ void simulate_batch(const Mechanism& mechanism, const SimulationOptions& options
                     const StepLoopChoice& choice) {
   const auto lanes = static_cast<std::size_t>(choice.level.lanes);
   const std::span<BatchCase> all(cases);
+  if (options.integrator != Integrator::rk4) return run_each(mechanism, options, all, limits);
   for (std::size_t i = 0; i < all.size(); i += lanes) {
     run_pack(mechanism, options, all.subspan(i, std::min(lanes, all.size() - i)), limits, choice);
   }

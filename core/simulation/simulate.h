@@ -1,5 +1,6 @@
-// Runs: constant steps of the classical Runge-Kutta method from a prepared start, observers at
-// every accepted state, and a typed cause at the end. A run that fails numerically is a result.
+// Runs from a prepared start: constant steps of the classical Runge-Kutta method, or adaptive ones
+// with contacts located (core/simulation/located_run.h); observers on the grid of steps, and a
+// typed cause at the end. A run that fails numerically is a result.
 #pragma once
 
 #include <atomic>
@@ -33,6 +34,8 @@ struct SimulationOutcome {
   std::string message;
   double end_time = 0.0;             // reached, s
   long steps = 0;                    // accepted
+  long rejected = 0;                 // tried again with a shorter step; adaptive, stiff
+  long evaluations = 0;              // of the equations of motion
   double drift_max = 0.0;            // largest cut-joint residual, norm over all rows (m, 1)
   double energy_residual_max = 0.0;  // J, at the output instants
   double energy_scale = 0.0;         // J, largest kinetic energy or work seen there
@@ -58,7 +61,7 @@ struct BatchCase {
 
 // Runs of one structure and one step grid, several at a time in the lanes of a pack, in the order
 // given. The outcome of a case, to the last bit, is that of `simulate`. A time limit is one for
-// each pack.
+// each pack. Adaptive integrators take one case at a time, each with steps of its own.
 void simulate_batch(const Mechanism& mechanism, const SimulationOptions& options,
                     std::vector<BatchCase>& cases, const RunLimits& limits = {});
 

@@ -41,6 +41,8 @@ bool same_steps(const SimulationOptions& a, const SimulationOptions& b) {
   const StepGrid grid_a = make_step_grid(a);
   const StepGrid grid_b = make_step_grid(b);
   return grid_a.count == grid_b.count && grid_a.h == grid_b.h && a.integrator == b.integrator &&
+         a.relative_tolerance == b.relative_tolerance &&
+         a.absolute_tolerance == b.absolute_tolerance && a.step_limit == b.step_limit &&
          a.drift_limit == b.drift_limit && output_stride(a, grid_a) == output_stride(b, grid_b);
 }
 
