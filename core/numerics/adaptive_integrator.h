@@ -2,7 +2,7 @@
 // solution between the ends of the last step (Boost.odeint):
 //   dormand_prince  explicit, order 5(4), dense output of order 4; 6 evaluations a step
 //   rosenbrock      linearly implicit (RODAS), order 4(3), dense output of order 3, stiffly
-//                   accurate; 6 evaluations a step and those of the Jacobian by differences
+//                   accurate; 6 evaluations a step and two a column of the Jacobian
 // A step is accepted when the estimate of its error stays below
 //   absolute_i + relative max |y_i|
 // in every unknown (dormand_prince) or in the mean square over them (rosenbrock). Knows no

@@ -81,11 +81,12 @@ class Rosenbrock final : public AdaptiveIntegrator {
   }
 
   void linearize(double h) {
-    if (!linearized_) jacobian_.update(counted_, t(), y(), slopes(), h);
+    if (!linearized_) jacobian_.update(counted_, t(), y(), h);
     linearized_ = true;
   }
 
   Trial attempt(double h, State& end) override {
+    slopes();
     linearize(h);
     for (std::size_t i = 0; i < n_; ++i) begin_[i] = y()[i] / scale_[i];
     const auto slopes_at = [this](const Vector& u, Vector& du, double s) {

