@@ -10,6 +10,9 @@
 // and inertia of the link are kept exactly: element k of length l_k has the mass m l_k / L, its
 // centre in its middle, and of the link's inertia beyond that of a thin rod the share l_k / L,
 //   I_k = m l_k / L * l_k^2 / 12 (e_y e_y^T + e_z e_z^T) + l_k / L * (I - I_rod).
+// Of a uniform beam (axial moment = sum of the two of I - I_rod across) these are inertias of
+// bodies; where the axial moment is larger, short elements have one that no body has, which is
+// positive definite all the same.
 #pragma once
 
 #include "core/topology/linkage.h"
