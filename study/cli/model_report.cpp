@@ -77,9 +77,26 @@ namespace {
 // A ledger this far open means steps too coarse for what happened.
 constexpr double kOpenLedger = 1e-2;
 constexpr double kRoundingOfEnergy = 1e-9;  // J, of a linkage at rest
+// Fewer equal steps in a contact do not follow its force.
+constexpr long kStepsOfContact = 20;
 
-std::vector<std::string> outcome_notes(const SimulationOutcome& outcome) {
+std::string contacts_text(const SimulationOutcome& outcome) {
+  std::string text = fmt::format("{} begun", outcome.contacts);
+  const long least = outcome.least_contact_steps;
+  if (least > 0) text += fmt::format(", the shortest that ended took {} steps", least);
+  return text;
+}
+
+std::vector<std::string> outcome_notes(const SimulationOutcome& outcome,
+                                       const SimulationOptions& options) {
   std::vector<std::string> notes;
+  const long least = outcome.least_contact_steps;
+  if (options.integrator == Integrator::rk4 && least > 0 && least < kStepsOfContact) {
+    notes.push_back(
+        fmt::format("a contact took {} steps; {} follow its force: shorten simulation.step, or use "
+                    "simulation.integrator = \"adaptive\"",
+                    least, kStepsOfContact));
+  }
   if (outcome.greatest_rank > outcome.least_rank) {
     notes.push_back(
         fmt::format("the rank of the closure equations changed between {} and {}: a singular pose "
@@ -98,17 +115,25 @@ std::vector<std::string> outcome_notes(const SimulationOutcome& outcome) {
 
 }  // namespace
 
-std::string outcome_text(const SimulationOutcome& outcome, double wall_s) {
+std::string outcome_text(const SimulationOutcome& outcome, const SimulationOptions& options,
+                         double wall_s) {
   std::string text =
       summary_line("status", outcome.cause == Cause::ok
                                  ? std::string("ok")
                                  : fmt::format("{}: {}", name_of(outcome.cause), outcome.message));
-  text +=
-      summary_line("reached", fmt::format("{:.6g} s in {} steps", outcome.end_time, outcome.steps));
+  std::string reached = fmt::format("{:.6g} s in {} steps", outcome.end_time, outcome.steps);
+  if (options.integrator != Integrator::rk4) {
+    reached +=
+        fmt::format(", {} more tried again, {} evaluations", outcome.rejected, outcome.evaluations);
+  }
+  text += summary_line("reached", reached);
+  if (outcome.contacts > 0) text += summary_line("contacts", contacts_text(outcome));
   text += summary_line("drift_max", fmt::format("{:.4g}", outcome.drift_max));
   text += summary_line("energy", fmt::format("residual at most {:.4g} J of {:.4g} J",
                                              outcome.energy_residual_max, outcome.energy_scale));
-  for (const std::string& note : outcome_notes(outcome)) text += summary_line("note", note);
+  for (const std::string& note : outcome_notes(outcome, options)) {
+    text += summary_line("note", note);
+  }
   return text + summary_line("wall", fmt::format("{:.3g} s", wall_s));
 }
 
@@ -123,6 +148,10 @@ std::string outcome_json(const Preparation& preparation, const SimulationOutcome
                      {"message", ran ? outcome->message : preparation.message},
                      {"end_time", number(ran ? outcome->end_time : 0.0)},
                      {"steps", ran ? outcome->steps : 0},
+                     {"rejected", ran ? outcome->rejected : 0},
+                     {"evaluations", ran ? outcome->evaluations : 0},
+                     {"contacts", ran ? outcome->contacts : 0},
+                     {"least_contact_steps", ran ? outcome->least_contact_steps : 0},
                      {"drift_max", number(ran ? outcome->drift_max : nan)},
                      {"energy_residual_max", number(ran ? outcome->energy_residual_max : nan)},
                      {"step_limit", number(is_prepared ? preparation.spectrum.step_limit : nan)},

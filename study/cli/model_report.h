@@ -16,8 +16,9 @@ std::string preparation_text(const std::string& file, const std::string& name,
 // Warnings, one a line.
 std::string warning_text(const Preparation& preparation);
 
-// How the run ended.
-std::string outcome_text(const SimulationOutcome& outcome, double wall_s);
+// How the run ended, with a note where contacts were too short for the step.
+std::string outcome_text(const SimulationOutcome& outcome, const SimulationOptions& options,
+                         double wall_s);
 
 // The object of `simulate --json` and `statics --json`. Numbers that are not finite are null.
 std::string outcome_json(const Preparation& preparation, const SimulationOutcome* outcome,

@@ -135,7 +135,7 @@ int run_simulate(const CommandLine& line) {
   const SimulationOutcome outcome = run_model(line, preparation, input.options, observers);
   const double wall_s = seconds_since(begin);
   write_csv(line, observers);
-  print_text(line, outcome_text(outcome, wall_s));
+  print_text(line, outcome_text(outcome, input.options, wall_s));
   if (line.json) print_out(outcome_json(preparation, &outcome, wall_s) + "\n");
   return outcome.cause == Cause::ok ? kDone : kTooManyFailed;
 }

@@ -23,6 +23,8 @@ constexpr std::array<RunNumberText, kRunNumbers> kTexts = {{
     {"h_omega_max", "", "step times highest eigenfrequency"},
     {"steps", "", "accepted steps"},
     {"end_time", "s", "time reached"},
+    {"contacts", "", "contacts of journals and bearings begun"},
+    {"least_contact_steps", "", "steps in the shortest contact that ended, 0: none; rk4 needs 20"},
 }};
 
 std::string to_name(std::string text) {

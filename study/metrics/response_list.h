@@ -19,9 +19,11 @@ enum class RunNumber {
   step_limit,
   h_omega_max,
   steps,
-  end_time
+  end_time,
+  contacts,
+  least_contact_steps
 };
-inline constexpr std::size_t kRunNumbers = 8;
+inline constexpr std::size_t kRunNumbers = 10;
 
 std::vector<Response> list_responses(const StudyInput& input, const StudySignals& signals);
 

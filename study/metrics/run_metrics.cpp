@@ -143,6 +143,8 @@ std::vector<double> RunMetrics::reduce(const SimulationOutcome& outcome,
   numbers.push_back(grid_.h * spectrum.omega_max);
   numbers.push_back(static_cast<double>(outcome.steps));
   numbers.push_back(outcome.end_time);
+  numbers.push_back(static_cast<double>(outcome.contacts));
+  numbers.push_back(static_cast<double>(outcome.least_contact_steps));
   return numbers;
 }
 
