@@ -246,6 +246,8 @@ const Wrong kRealJoints[] = {
      "give contact.stiffness"},
     {"unknown_law", "restitution = 0.9", "law = @\"hertz\"",
      "contact.law must be one of lankarani_nikravesh, flores, hunt_crossley"},
+    {"relaxing_without_damping", "restitution = 0.9", "free_bristle = @\"relax\"",
+     "\"relax\" takes the time sigma1 / sigma0"},
     {"less_static_than_kinetic", "mu_s = 0.3", "mu_s = @0.1",
      "joint 'A': friction.mu_s must not be below friction.mu_k = 0.2, got 0.1"},
     {"friction_without_bristle", "{ mu_s = 0.3, mu_k = 0.2, sigma0 = 1e5, radius = 0.01 }",
