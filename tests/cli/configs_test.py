@@ -35,8 +35,8 @@ def shortened(path):
 
 class Configs(unittest.TestCase):
     def test_there_are_mechanisms_and_studies(self):
-        self.assertGreaterEqual(len(files_in("mechanisms")), 6)
-        self.assertGreaterEqual(len(files_in("studies")), 5)
+        self.assertGreaterEqual(len(files_in("mechanisms")), 17)
+        self.assertGreaterEqual(len(files_in("studies")), 10)
 
     def test_every_file_is_right(self):
         done = run("check", *files_in("mechanisms"), *files_in("studies"))
@@ -51,12 +51,48 @@ class Configs(unittest.TestCase):
     def test_every_mechanism_runs_with_every_closure_model(self):
         for path in files_in("mechanisms"):
             closures = tomllib.loads(path.read_text()).get("closure", [])
-            for model in ("cut", "sde") if closures else ("",):
+            real = closures and all("clearance" in closure for closure in closures)
+            for model in ("cut", "sde", *(("clearance",) if real else ())) if closures else ("",):
                 options = [text for closure in closures
                            for text in ("-s", f"closure.{closure['name']}.model={model}")]
                 with self.subTest(file=path.name, model=model):
                     done = run("simulate", path, "-s", f"simulation.end_time={END}", *options)
                     self.assertEqual(0, done.returncode, done.stderr)
+
+    def test_every_part_of_a_real_joint_or_link_is_switched_by_one_word(self):
+        for path in files_in("mechanisms"):
+            model = tomllib.loads(path.read_text())
+            words = [f"link.{link['name']}.flexible.enabled={word}"
+                     for link in model["link"] if "flexible" in link for word in ("true", "false")]
+            for closure in model.get("closure", []):
+                name = closure["name"]
+                if "friction" in closure:
+                    words.append(f"closure.{name}.friction.enabled=false")
+                if "length" in closure.get("clearance", {}):
+                    words += [f"closure.{name}.clearance.kind={kind}"
+                              for kind in ("planar", "spatial")]
+            for word in words:
+                with self.subTest(file=path.name, word=word):
+                    done = run("simulate", path, "-s", f"simulation.end_time={END}", "-s", word)
+                    self.assertEqual(0, done.returncode, done.stderr)
+
+    def test_the_same_linkage_cut_elsewhere_moves_the_same(self):
+        def crank_angles(name, *options):
+            done = run("simulate", TREE / "configs" / "mechanisms" / name, "-s",
+                       "simulation.end_time=2", "-s", "simulation.output_interval=0.01", "--csv",
+                       "-", "--signals", "joint.A.q,joint.P.q", *options)
+            self.assertEqual(0, done.returncode, done.stderr)
+            lines = done.stdout.split("\n")[2:-1]
+            return [[float(text) for text in line.split(",")] for line in lines]
+
+        rsrrp = crank_angles("rsrrp.toml", "-s", "load.drive.course.duration=2", "-s",
+                             "closure.S.cut={ stabilization = \"projection\" }")
+        rsup = crank_angles("rsup.toml", "-s", "closure.R.cut={ stabilization = \"projection\" }")
+        self.assertEqual(201, len(rsup))
+        self.assertGreater(rsup[-1][1], 6.0)  # the crank has turned
+        for one, other in zip(rsrrp, rsup, strict=True):
+            for a, b in zip(one, other, strict=True):
+                self.assertLess(abs(a - b), 1e-8)
 
     def test_every_study_runs(self):
         for path in files_in("studies"):
