@@ -7,6 +7,7 @@
 
 #include "core/dynamics/differences.h"
 #include "core/dynamics/motion.h"
+#include "core/forces/contact_memory.h"
 #include "core/kinematics/assembly.h"
 
 namespace linkstudy {
@@ -76,6 +77,7 @@ VectorXd accelerations(const Model& model, const State<double>& s, Workspace<dou
 MatrixXd linear_system(const Model& model, const State<double>& s) {
   const Mechanism& m = model.mechanism;
   Workspace<double> w = make_workspace<double>(m);
+  hold_contacts_open(m, w);
   const VectorXd steps = difference_steps(model, s);
   MatrixXd a = MatrixXd::Zero(2 * m.nv, 2 * m.nv);
   fill_kinematics(m, s, a);

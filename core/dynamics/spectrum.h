@@ -4,6 +4,7 @@
 // Where a ball turns with the angular velocity omega (in its own axes), dq' = dv - omega x dq.
 // An element along the line of centres whose gap is shut has no direction: it counts with its
 // stiffness and damping along all three axes, which bounds every direction it can take.
+// Contacts of clearances are held open: their stiffness is felt by steps in contact only.
 // Step limit: the largest h with |R(h lambda)| <= 1 for every eigenvalue, R(z) = 1 + z + z^2/2 +
 // z^3/6 + z^4/24; eigenvalues in the right half plane (an unstable equilibrium, not an unstable
 // method) count with their real part set to zero.

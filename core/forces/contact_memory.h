@@ -12,6 +12,14 @@ struct ContactLog {
   Real least_steps = Real(1e9);  // steps in the shortest contact that has ended
 };
 
+// No contact acts, wherever the journals are.
+template <class M, class Real>
+inline void hold_contacts_open(const M& m, Workspace<Real, M>& w) {
+  for_all_contacts(m, [&](auto i) {
+    at(w.memory, i).least_depth = Real(std::numeric_limits<double>::infinity());
+  });
+}
+
 // A contact before a run: whatever touches at its start begins there.
 template <class Real>
 inline ContactMemory<Real> fresh_contact() {

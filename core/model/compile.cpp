@@ -1,8 +1,9 @@
 #include "core/model/compile.h"
 
 #include <algorithm>
-#include <limits>
 #include <map>
+
+#include "core/model/shapes.h"
 
 namespace linkstudy {
 namespace {
@@ -74,52 +75,6 @@ std::vector<const Joint*> tree_order(const Linkage& linkage, std::map<std::strin
 const Link& find_link(const Linkage& linkage, const std::string& name) {
   return *std::find_if(linkage.links.begin(), linkage.links.end(),
                        [&](const Link& link) { return link.name == name; });
-}
-
-// Exactly zero entries are what the step loop may skip: a shape follows from the numbers given.
-VectorShape shape_of(const Eigen::Vector3d& a) {
-  const int count = int(a.x() != 0.0) + int(a.y() != 0.0) + int(a.z() != 0.0);
-  if (count == 0) return VectorShape::zero;
-  if (count > 1) return VectorShape::general;
-  return a.x() != 0.0   ? VectorShape::along_x
-         : a.y() != 0.0 ? VectorShape::along_y
-                        : VectorShape::along_z;
-}
-
-// Entries that quarter turns leave beside 0 and 1: cos(pi / 2) rounds to 6e-17, products of a few
-// turns to some ulp. A tilt by more than this is meant.
-constexpr double kAxisRounding = 4.0 * std::numeric_limits<double>::epsilon();
-
-RotationShape shape_of(const Eigen::Matrix3d& r, QuarterTurn& quarter) {
-  bool is_identity = true;
-  for (int j = 0; j < 3; ++j) {
-    int axis = 0;
-    r.col(j).cwiseAbs().maxCoeff(&axis);
-    const double sign = r(axis, j) > 0.0 ? 1.0 : -1.0;
-    const Eigen::Vector3d off = r.col(j) - sign * Eigen::Vector3d::Unit(axis);
-    if (!(off.cwiseAbs().maxCoeff() <= kAxisRounding)) return RotationShape::general;
-    quarter.axis[static_cast<std::size_t>(j)] = static_cast<std::int8_t>(axis);
-    quarter.sign[static_cast<std::size_t>(j)] = sign > 0.0 ? 1 : -1;
-    is_identity = is_identity && axis == j && sign > 0.0;
-  }
-  return is_identity ? RotationShape::identity : RotationShape::quarter;
-}
-
-// Differences below rounding of the sum count as equal.
-InertiaShape shape_of_inertia(const Eigen::Matrix3d& i) {
-  const double rounding = 1e-15 * i.trace();
-  const auto same = [&](double a, double b) { return std::abs(a - b) <= rounding; };
-  if (!same(i(0, 1), 0.0) || !same(i(0, 2), 0.0) || !same(i(1, 2), 0.0)) {
-    return InertiaShape::general;
-  }
-  const bool xy = same(i(0, 0), i(1, 1));
-  const bool yz = same(i(1, 1), i(2, 2));
-  const bool xz = same(i(0, 0), i(2, 2));
-  if (xy && yz) return InertiaShape::isotropic;
-  return xy   ? InertiaShape::about_z
-         : yz ? InertiaShape::about_x
-         : xz ? InertiaShape::about_y
-              : InertiaShape::general;
 }
 
 bool is_rotation(BasicMotion motion) {
@@ -522,55 +477,6 @@ Frame link_in_body(const Joint& joint) {
 
 Model compile(const Linkage& linkage, const std::vector<unsigned>& idle) {
   return Compiler(linkage, idle).run();
-}
-
-namespace {
-
-auto key(const Body& b) {
-  return std::tuple(b.parent, b.stage_begin, b.stage_end, b.q_begin, b.v_begin, b.frame,
-                    b.quarter.axis, b.quarter.sign, b.offset, b.center, b.inertia);
-}
-auto key(const Stage& s) {
-  return std::tuple(s.motion, s.q, s.v);
-}
-auto key(const Row& r) {
-  return std::tuple(r.kind, r.closure, r.axis, r.other, r.sign, r.direction);
-}
-auto key(const ClosureStructure& c) {
-  return std::tuple(c.first, c.second, c.model, c.stabilization, c.row_begin, c.row_end, c.point_1,
-                    c.point_2);
-}
-auto key(const JointSpring& s) {
-  return std::tuple(s.q, s.v);
-}
-auto key(const ClearanceStructure& c) {
-  return std::tuple(c.closure, c.bearing_first, c.hertz, c.free_bristle, c.contact_begin,
-                    c.contact_end);
-}
-auto key(const ContactStructure& c) {
-  return std::tuple(c.clearance, c.side, c.z);
-}
-auto key(const JointFrictionStructure& f) {
-  return std::tuple(f.body, f.turn, f.slide, f.z);
-}
-auto key(const LoadStructure& l) {
-  return std::tuple(l.type, l.v, l.body, l.follows_link, l.course, l.law, l.table_begin,
-                    l.table_end);
-}
-
-template <class T>
-bool same(const std::vector<T>& a, const std::vector<T>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](const T& x, const T& y) { return key(x) == key(y); });
-}
-
-}  // namespace
-
-bool same_structure(const Mechanism& a, const Mechanism& b) {
-  return same(a.bodies, b.bodies) && same(a.stages, b.stages) && same(a.closures, b.closures) &&
-         same(a.cut_rows, b.cut_rows) && same(a.sde_rows, b.sde_rows) && same(a.loads, b.loads) &&
-         same(a.joint_springs, b.joint_springs) && same(a.clearances, b.clearances) &&
-         same(a.contacts, b.contacts) && same(a.frictions, b.frictions);
 }
 
 }  // namespace linkstudy

@@ -82,8 +82,18 @@ bool assemble(const Linkage& linkage, const Model& closed, Preparation& p) {
   return true;
 }
 
-bool find_equilibrium(Preparation& p) {
-  p.statics = solve_statics(p.model, p.model.start);
+// At rest nothing tells where a loose journal lies: equilibrium is that of the ideal joints.
+Linkage with_ideal_bearings(const Linkage& linkage) {
+  Linkage ideal = linkage;
+  for (Closure& c : ideal.closures) {
+    if (c.model == ClosureModel::clearance) c.model = ClosureModel::cut;
+  }
+  return ideal;
+}
+
+bool find_equilibrium(const Linkage& linkage, Preparation& p) {
+  const Linkage ideal = with_ideal_bearings(linkage);
+  p.statics = solve_statics(compile(ideal, find_idle_directions(ideal)), p.model.start);
   if (!p.statics->converged) {
     fail(p, Cause::statics_failed,
          "no static equilibrium after " + std::to_string(p.statics->iterations) +
@@ -97,6 +107,7 @@ bool find_equilibrium(Preparation& p) {
 }
 
 void warn_of_step(const SimulationOptions& options, Preparation& p) {
+  if (options.integrator != Integrator::rk4) return;  // they choose their own
   const double h = make_step_grid(options).h;
   const double product = h * p.spectrum.omega_max;
   if (h > p.spectrum.step_limit) {
@@ -145,7 +156,7 @@ Preparation prepare(const Linkage& linkage, const SimulationOptions& options) {
   resolve_damping(linkage, p.model.start, p.model);
   const std::vector<double> velocities = p.model.start.v;
   if (options.start == Start::equilibrium) {
-    if (!find_equilibrium(p)) return p;
+    if (!find_equilibrium(linkage, p)) return p;
     p.model.start.v = velocities;
     // Statics moved the pose, still closed; velocities must fit the cut joints there.
     if (p.model.mechanism.sde_rows.empty() &&

@@ -139,8 +139,8 @@ class Run {
     const Real drift = sqrt(square);
     drift_max_ = select(drift > drift_max_, drift, drift_max_);
     const auto closed = drift <= Real(setting_.drift_limit);
-    least_rank_ = select(w_.kept_rows < least_rank_, w_.kept_rows, least_rank_);
-    greatest_rank_ = select(w_.kept_rows > greatest_rank_, w_.kept_rows, greatest_rank_);
+    least_rank_ = select(moving && w_.kept_rows < least_rank_, w_.kept_rows, least_rank_);
+    greatest_rank_ = select(moving && w_.kept_rows > greatest_rank_, w_.kept_rows, greatest_rank_);
     if constexpr (FixedStructure<M>) abandon_lanes(active_ & redundant_);
     end_lanes(active_ & ~lane_bits(moving), Cause::diverged);
     end_lanes(active_ & ~lane_bits(closed), Cause::constraint_drift);

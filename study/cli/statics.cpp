@@ -42,6 +42,16 @@ std::string values_text(const Preparation& preparation, SimulationOptions option
   return text;
 }
 
+// At rest nothing tells where a loose journal lies in its bearing.
+void take_ideal_bearings(Linkage& linkage) {
+  for (Closure& closure : linkage.closures) {
+    if (closure.model != ClosureModel::clearance) continue;
+    closure.model = ClosureModel::cut;
+    fmt::print(stderr, "linkstudy: note: closure '{}' has clearance: taken as an ideal joint\n",
+               closure.name);
+  }
+}
+
 }  // namespace
 
 int run_statics(const CommandLine& line) {
@@ -49,6 +59,7 @@ int run_statics(const CommandLine& line) {
   ModelInput input = read_model_input(line);
   input.options.start = Start::equilibrium;
   for (Joint& joint : input.linkage.joints) joint.velocity.clear();
+  take_ideal_bearings(input.linkage);
   const auto begin = Clock::now();
   const Preparation preparation = prepare(input.linkage, input.options);
   const double wall_s = std::chrono::duration<double>(Clock::now() - begin).count();

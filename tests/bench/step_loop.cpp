@@ -11,8 +11,10 @@
 #include <cstdlib>
 #include <utility>
 
+#include "core/flexible/rigid_finite_elements.h"
 #include "study/specialize/fixed_kernels.h"
 #include "tests/bench/engine_runs.h"
+#include "tests/mechanisms/journal_in_bearing.h"
 #include "tests/mechanisms/rsrrp.h"
 #include "tests/support/trace_formulas.h"
 
@@ -71,31 +73,33 @@ double measure(const char* name, const Linkage& linkage) {
   return one_lane;
 }
 
-// RSRRP with its coupler cut into pieces joined by spherical joints: 4 + 3 (pieces - 1) freedoms.
-Linkage segmented_rsrrp(int pieces) {
+// RSRRP with its coupler as six rigid finite elements: 4 + 3 * 5 freedoms. Steel, 20 mm round.
+Linkage flexible_rsrrp() {
   Linkage linkage = rsrrp_test_vector(ClosureModel::sde);
-  const auto coupler = std::find_if(linkage.links.begin(), linkage.links.end(),
-                                    [](const Link& link) { return link.name == "coupler"; });
-  const double length = 0.5 / pieces;
-  coupler->mass /= pieces;
-  coupler->inertia /= pieces;
-  coupler->center_of_mass /= pieces;
-  const Link piece = *coupler;
-  std::string before = "coupler";
-  for (int i = 1; i < pieces; ++i) {
-    Link link = piece;
-    link.name = fmt::format("coupler_{}", i);
-    Joint joint;
-    joint.name = fmt::format("J_{}", i);
-    joint.type = JointType::spherical;
-    joint.parent = before;
-    joint.child = before = link.name;
-    joint.frame.position = {0.0, length, 0.0};
-    linkage.links.push_back(link);
-    linkage.joints.push_back(joint);
-  }
-  linkage.closures[0].second.link = before;
-  linkage.closures[0].second.frame.position = {0.0, length, 0.0};
+  Link& coupler = *std::find_if(linkage.links.begin(), linkage.links.end(),
+                                [](const Link& link) { return link.name == "coupler"; });
+  FlexibleBeam beam;
+  beam.segments = 5;
+  beam.end = {0.0, 0.5, 0.0};
+  beam.across = {1.0, 0.0, 0.0};
+  beam.young = 207e9;
+  beam.shear = 80e9;
+  beam.second_moment_y = beam.second_moment_z = 7.854e-9;
+  beam.torsion_constant = 1.571e-8;
+  beam.retardation = 1e-5;
+  coupler.flexible = beam;
+  return expand_flexible_links(linkage);
+}
+
+// RSRRP with a loose pin between coupler and yoke, and LuGre friction there. The load at its start
+// presses journal and bearing together.
+Linkage loose_rsrrp() {
+  Linkage linkage = rsrrp_revolute();
+  Closure& pin = linkage.closures[0];
+  pin.model = ClosureModel::clearance;
+  pin.clearance = loose_bearing();
+  pin.clearance.friction = table_1_friction();
+  pin.second.frame.position += pin.second.frame.rotation.col(1) * 1.002e-3;
   return linkage;
 }
 
@@ -112,6 +116,7 @@ int main(int argc, char** argv) {
   linkstudy::Linkage revolute = linkstudy::testing::rsrrp_revolute();
   revolute.closures[0].model = ClosureModel::sde;
   measure("revolute", revolute);
-  measure("19 freedoms", segmented_rsrrp(6));
+  measure("clearance", loose_rsrrp());
+  measure("flexible, 19 freedoms", flexible_rsrrp());
   return argc < 2 || std::min(spring, cut) >= std::atof(argv[1]) ? 0 : 1;
 }
