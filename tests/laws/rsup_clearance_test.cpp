@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/laws/normal_contact.h"
+#include "tests/mechanisms/loose_slider_crank.h"
 #include "tests/mechanisms/rsup.h"
 #include "tests/support/engine_probe.h"
 #include "tests/support/free_bodies.h"
@@ -202,6 +203,29 @@ TEST(Rsup, A_run_passes_through_all_four_states_of_contact_and_forces_are_contin
   EXPECT_GT(changes, 100);
   const double most = pin.samples.values.middleCols(8, 2).maxCoeff();
   EXPECT_LT(largest, 0.2 * most) << "jumps are those of sampling, not of the law";
+}
+
+// All loads in the plane: the axes stay parallel, whether they must or not. Nothing but its bearing
+// keeps the rod in the plane, and impacts multiply what rounding tilts it: later it leaves it.
+TEST(LooseSliderCrank, Its_spatial_clearance_moves_it_as_the_planar_one) {
+  std::array<Samples, 2> samples;
+  for (const ClearanceKind kind : {ClearanceKind::planar, ClearanceKind::spatial}) {
+    samples[kind == ClearanceKind::spatial] =
+        run(compile(loose_slider_crank(kind, 60.0)), steps_of(2e-6, 0.05, 1e-4),
+            {"joint.A.q.0", "joint.P.q", "joint.P.v", "closure.R.force", "closure.R.eccentricity",
+             "joint.A.q.1", "joint.B.q.1", "joint.B.q.2"});
+  }
+  for (const Samples& s : samples) ASSERT_EQ(s.outcome.cause, Cause::ok) << s.outcome.message;
+  const Matrix& planar = samples[0].values;
+  const Matrix error = (planar - samples[1].values).cwiseAbs();
+  EXPECT_GT(samples[0].outcome.contacts, 5);
+  EXPECT_EQ(samples[1].outcome.contacts, 2 * samples[0].outcome.contacts) << "both ends together";
+  EXPECT_GT(planar(500, 0), 1.5) << "a quarter of a turn";
+  EXPECT_LT(error.leftCols(2).maxCoeff(), 1e-9);
+  EXPECT_LT(error.col(2).maxCoeff(), 1e-6);
+  EXPECT_LT(error.middleCols(3, 3).maxCoeff(), 1e-5 * planar.middleCols(3, 3).maxCoeff());
+  EXPECT_LT(error.middleCols(6, 2).maxCoeff(), 1e-9);
+  for (const Samples& s : samples) EXPECT_LT(s.values.rightCols(3).cwiseAbs().maxCoeff(), 1e-9);
 }
 
 }  // namespace linkstudy::testing
