@@ -5,10 +5,12 @@
 // and |e . M| / radius more in a prismatic joint with a radius. Friction brakes the turn with
 // mu N radius and the slide with mu N.
 //
-// The load depends on the accelerations and these on friction: both are found together by
-// substitution, which converges while friction moves the load by less than its own change. Lanes
-// that have settled keep their load, so that each ends as it would alone. A joint that jams (no
-// balance exists) is marked in Workspace::jammed.
+// The load depends on the accelerations and these on friction. Reactions are linear in the friction
+// forces, loads nearly so: both are found together by Broyden's method from zero loads, which ends
+// after twice as many passes as there are such joints where loads are linear. Lanes that have
+// settled keep their load, so that each ends as it would alone. Where no balance exists the joint
+// jams: Workspace::jammed. Where there are several (friction may then overcome what drives it) one
+// of them is taken.
 #pragma once
 
 #include "core/dynamics/accelerations.h"
@@ -16,9 +18,10 @@
 
 namespace linkstudy {
 
-inline constexpr int kMostSubstitutions = 60;
-inline constexpr double kSettledLoad = 1e-10;  // of the load
-inline constexpr double kLeastLoad = 1e-12;    // N: what counts as no load
+inline constexpr int kMostPasses = 60;
+inline constexpr double kSettledLoad = 1e-10;   // of the load
+inline constexpr double kLeastLoad = 1e-12;     // N: what counts as no load
+inline constexpr double kLeastChange = 1e-280;  // N^2: too little to divide by
 
 template <class Real>
 inline Real length_of(const Vec3<Real>& a) {
@@ -57,10 +60,10 @@ inline void update_coefficients(const JointFrictionStructure& s,
   at(w.z_rate, s.z) = f.z_rate;
 }
 
-// tau := tau plus the change that a new load makes to the friction of one joint.
+// tau and the friction of one joint for a load.
 template <class Real, class W>
-inline void change_load(const JointFrictionStructure& s, const JointFrictionParameters<Real>& n,
-                        Real load, JointFrictionState<Real>& x, W& w) {
+inline void set_load(const JointFrictionStructure& s, const JointFrictionParameters<Real>& n,
+                     Real load, JointFrictionState<Real>& x, W& w) {
   x.load = load;
   x.on_turn = x.mu_turn * load * n.radius;
   x.on_slide = x.mu_slide * load;
@@ -68,39 +71,92 @@ inline void change_load(const JointFrictionStructure& s, const JointFrictionPara
   if (s.slide >= 0) at(w.tau, s.slide) = at(w.friction_tau, s.slide) - x.on_slide;
 }
 
-// One substitution; true in lanes where every load has settled.
-template <class M, class Real, class Mask>
-inline Mask substitute_loads(const M& m, const Parameters<Real>& p, const Mask& settled,
-                             Workspace<Real, M>& w) {
+// Gaps between the loads that the reactions ask for and those in use; true in lanes where none is
+// left.
+template <class M, class Real>
+inline auto load_gaps(const M& m, const Parameters<Real>& p, Workspace<Real, M>& w) {
   update_reactions(m, p, w, w.reactions);
-  Mask now = Real(0.0) == Real(0.0);
+  auto none_left = Real(0.0) == Real(0.0);
   for_frictions(m, [&](auto i) {
     const JointFrictionStructure& s = at(m.frictions, i);
-    const JointFrictionParameters<Real>& n = at(p.frictions, i);
     JointFrictionState<Real>& x = at(w.frictions, i);
     const Vec3<Real>& axis = at(w.axes, s.turn >= 0 ? s.turn : s.slide);
-    const Real found = normal_load(s, n, axis, at(w.reactions.on_child, s.body));
-    const Real change = abs(found - x.load);
-    now = now && change <= madd(Real(kSettledLoad), found, Real(kLeastLoad));
-    change_load(s, n, select(settled, x.load, found), x, w);
+    const Real found = normal_load(s, at(p.frictions, i), axis, at(w.reactions.on_child, s.body));
+    x.next_gap = found - x.load;
+    none_left = none_left && abs(x.next_gap) <= madd(Real(kSettledLoad), found, Real(kLeastLoad));
   });
-  return settled || now;
+  return none_left;
+}
+
+// Broyden's update of H, which stands for -(d gap / d load)^-1: afterwards H takes the last change
+// of the gaps to minus the last change of the loads.
+template <class M, class Real>
+inline void learn_from_last_change(const M& m, Workspace<Real, M>& w) {
+  const int n = static_cast<int>(m.frictions.size());
+  Real* h = w.friction_inverse.data();
+  Real scale(0.0);
+  for_frictions(m, [&](auto i) {
+    Real sum(0.0), row(0.0);
+    for_frictions(m, [&](auto j) {
+      const JointFrictionState<Real>& x = at(w.frictions, j);
+      sum = madd(h[i * n + j], x.next_gap - x.gap, sum);
+      row = madd(x.change, h[j * n + i], row);
+    });
+    JointFrictionState<Real>& x = at(w.frictions, i);
+    x.missed = Real(0.0) - x.change - sum;
+    x.row = row;
+    scale = madd(row, x.next_gap - x.gap, scale);
+  });
+  const auto known = abs(scale) > Real(kLeastChange);
+  const Real inverse = select(known, Real(1.0) / select(known, scale, Real(1.0)), Real(0.0));
+  for_frictions(m, [&](auto i) {
+    for_frictions(m, [&](auto j) {
+      h[i * n + j] =
+          madd(at(w.frictions, i).missed * inverse, at(w.frictions, j).row, h[i * n + j]);
+    });
+  });
+}
+
+// Loads by H, in lanes that have not settled.
+template <class M, class Real, class Mask>
+inline void change_loads(const M& m, const Parameters<Real>& p, const Mask& settled,
+                         Workspace<Real, M>& w) {
+  const int n = static_cast<int>(m.frictions.size());
+  const Real* h = w.friction_inverse.data();
+  for_frictions(m, [&](auto i) { at(w.frictions, i).gap = at(w.frictions, i).next_gap; });
+  for_frictions(m, [&](auto i) {
+    JointFrictionState<Real>& x = at(w.frictions, i);
+    Real change(0.0);
+    for_frictions(m, [&](auto j) { change = madd(h[i * n + j], at(w.frictions, j).gap, change); });
+    x.change = select(settled, Real(0.0), change);
+    set_load(at(m.frictions, i), at(p.frictions, i), x.load + x.change, x, w);
+  });
+}
+
+template <class M, class Real>
+inline void start_loads(const M& m, const Parameters<Real>& p, const Real* v,
+                        Workspace<Real, M>& w) {
+  const int n = static_cast<int>(m.frictions.size());
+  for_velocities(m, [&](auto k) { at(w.friction_tau, k) = at(w.tau, k); });
+  for_frictions(m, [&](auto i) {
+    JointFrictionState<Real>& x = at(w.frictions, i);
+    update_coefficients(at(m.frictions, i), at(p.frictions, i), v, x, w);
+    x.load = Real(0.0);
+    for_frictions(m, [&](auto j) { at(w.friction_inverse, i * n + j) = Real(i == j ? 1.0 : 0.0); });
+  });
 }
 
 // Apart, so that linkages without such joints carry none of it.
 template <class M, class Real>
 [[gnu::noinline]] void balance_joint_friction(const M& m, const Parameters<Real>& p, const Real* v,
                                               Workspace<Real, M>& w) {
-  for_velocities(m, [&](auto k) { at(w.friction_tau, k) = at(w.tau, k); });
-  for_frictions(m, [&](auto i) {
-    JointFrictionState<Real>& x = at(w.frictions, i);
-    update_coefficients(at(m.frictions, i), at(p.frictions, i), v, x, w);
-    x.load = Real(0.0);
-  });
-  auto settled = Real(0.0) < Real(0.0);
-  for (int pass = 0; pass < kMostSubstitutions && !all(settled); ++pass) {
-    settled = substitute_loads(m, p, settled, w);
+  start_loads(m, p, v, w);
+  auto settled = load_gaps(m, p, w);
+  for (int pass = 0; pass < kMostPasses && !all(settled); ++pass) {
+    if (pass > 0) learn_from_last_change(m, w);
+    change_loads(m, p, settled, w);
     solve_accelerations(m, p, w);
+    settled = load_gaps(m, p, w) || settled;
   }
   w.jammed = lane_bits(settled) ^ kAllLanes<Real>;
   for_frictions(m, [&](auto i) {

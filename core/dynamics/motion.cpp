@@ -8,7 +8,7 @@ namespace linkstudy {
 
 void compute_motion(const Mechanism& m, const Parameters<double>& p, const State<double>& s,
                     Workspace<double>& w) {
-  std::copy(s.z.begin(), s.z.end(), w.z.begin());
+  if (s.z.size() == w.z.size()) w.z = s.z;  // a state of another form has no bristles here
   evaluate(m, p, s.t, s.q.data(), s.v.data(), w);
 }
 

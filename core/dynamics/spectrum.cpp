@@ -16,6 +16,8 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+constexpr double kBristleStep = 1e-6;  // m; what acts is linear in bristles
+
 bool is_shut(const ClosureState<double>& x) {
   const Vec3<double> gap = x.p2 - x.p1;
   return dot(gap, gap) <= kClosedTolerance * kClosedTolerance;
@@ -59,7 +61,7 @@ Model with_directions(const Model& model, const State<double>& s) {
 
 // dq' = dv - omega x dq for the coordinates of balls, else dq' = dv.
 void fill_kinematics(const Mechanism& m, const State<double>& s, MatrixXd& a) {
-  a.topRightCorner(m.nv, m.nv).setIdentity();
+  a.block(0, m.nv, m.nv, m.nv).setIdentity();
   for (const Stage& stage : m.stages) {
     if (stage.motion != BasicMotion::ball) continue;
     const Eigen::Map<const Eigen::Vector3d> omega(s.v.data() + stage.v);
@@ -69,9 +71,15 @@ void fill_kinematics(const Mechanism& m, const State<double>& s, MatrixXd& a) {
   }
 }
 
-VectorXd accelerations(const Model& model, const State<double>& s, Workspace<double>& w) {
-  compute_motion(model.mechanism, model.parameters, s, w);
-  return Eigen::Map<const VectorXd>(w.qdd.data(), model.mechanism.nv);
+// Accelerations (nv) and rates of bristles (nz); not a number where a joint jams.
+VectorXd slopes(const Model& model, const State<double>& s, Workspace<double>& w) {
+  const Mechanism& m = model.mechanism;
+  compute_motion(m, model.parameters, s, w);
+  VectorXd x(m.nv + m.nz);
+  x << Eigen::Map<const VectorXd>(w.qdd.data(), m.nv),
+      Eigen::Map<const VectorXd>(w.z_rate.data(), m.nz);
+  if (w.jammed != 0) x.setConstant(std::numeric_limits<double>::quiet_NaN());
+  return x;
 }
 
 MatrixXd linear_system(const Model& model, const State<double>& s) {
@@ -79,19 +87,27 @@ MatrixXd linear_system(const Model& model, const State<double>& s) {
   Workspace<double> w = make_workspace<double>(m);
   hold_contacts_open(m, w);
   const VectorXd steps = difference_steps(model, s);
-  MatrixXd a = MatrixXd::Zero(2 * m.nv, 2 * m.nv);
+  MatrixXd a = MatrixXd::Zero(2 * m.nv + m.nz, 2 * m.nv + m.nz);
   fill_kinematics(m, s, a);
   for (int k = 0; k < m.nv; ++k) {
     const auto at_position = [&](double x) {
-      return accelerations(model, displaced(m, s, x * VectorXd::Unit(m.nv, k)), w);
+      return slopes(model, displaced(m, s, x * VectorXd::Unit(m.nv, k)), w);
     };
     const auto at_velocity = [&](double x) {
       State<double> moved = s;
       moved.v[static_cast<std::size_t>(k)] += x;
-      return accelerations(model, moved, w);
+      return slopes(model, moved, w);
     };
-    a.block(m.nv, k, m.nv, 1) = differentiate(at_position, steps[k]).value;
-    a.block(m.nv, m.nv + k, m.nv, 1) = differentiate(at_velocity, steps[k]).value;
+    a.block(m.nv, k, m.nv + m.nz, 1) = differentiate(at_position, steps[k]).value;
+    a.block(m.nv, m.nv + k, m.nv + m.nz, 1) = differentiate(at_velocity, steps[k]).value;
+  }
+  for (int i = 0; i < m.nz; ++i) {
+    const auto at_bristle = [&](double x) {
+      State<double> moved = s;
+      moved.z[static_cast<std::size_t>(i)] += x;
+      return slopes(model, moved, w);
+    };
+    a.block(m.nv, 2 * m.nv + i, m.nv + m.nz, 1) = differentiate(at_bristle, kBristleStep).value;
   }
   return a;
 }

@@ -1,6 +1,7 @@
 // Highest eigenfrequency of the linearised equations of motion at a state, and the largest stable
 // step of the classical Runge-Kutta method for them. All applied forces are in (damping and
-// resistance too); the linear system is d/dt (dq, dv) = A (dq, dv), A by central differences.
+// resistance too); the linear system is d/dt (dq, dv, dz) = A (dq, dv, dz) with the bristles z of
+// friction in joints, A by central differences.
 // Where a ball turns with the angular velocity omega (in its own axes), dq' = dv - omega x dq.
 // An element along the line of centres whose gap is shut has no direction: it counts with its
 // stiffness and damping along all three axes, which bounds every direction it can take.

@@ -52,7 +52,9 @@ inline ContactGeometry<Real> contact_geometry(const JournalInBearing<Real>& j, R
   const Vec3<Real> along = offset * j.a;
   const Vec3<Real> c = j.bearing + along;
   const Vec3<Real> g = j.journal - c;
-  const Real aligned = dot(j.b, j.a);
+  // Axes across each other have no such point: far from any contact, but kept finite.
+  const Real cosine = dot(j.b, j.a);
+  const Real aligned = select(abs(cosine) < Real(1e-3), Real(1e-3), cosine);
   const Vec3<Real> reach = (-dot(g, j.a) / aligned) * j.b;
   ContactGeometry<Real> k;
   k.x = g + reach;

@@ -324,8 +324,9 @@ class Compiler {
                             static_cast<int>(m.contacts.size())});
     const double stiffness = contact_stiffness(c) * (spatial ? 0.5 : 1.0);
     const Friction friction = c.friction.value_or(Friction{});
-    const double relaxation =
-        c.free_bristle == FreeBristle::relax ? friction.sigma0 / friction.sigma1 : 0.0;
+    const double relaxation = c.friction && c.free_bristle == FreeBristle::relax
+                                  ? friction.sigma0 / friction.sigma1
+                                  : 0.0;
     parameters().clearances.push_back(
         {c.radial,
          c.bearing_radius,

@@ -72,6 +72,8 @@ struct JointFrictionState {
   Real load;               // N
   Real mu_turn, mu_slide;  // along the sliding velocity
   Real on_turn, on_slide;  // N m, N: against the motion
+  // Scratch of the search for loads: gaps to what the reactions ask for, last change, products.
+  Real gap, next_gap, change, missed, row;
 };
 
 // Scratch and result of reactions in tree joints (core/dynamics/reactions.h).
@@ -97,7 +99,7 @@ template <class M>
 struct Counts {
   static constexpr int bodies = -1, nv = -1, nv_nv = -1, closures = -1, loads = -1, nc = -1,
                        nc_nv = -1, nc_nc = -1, ns = -1, contacts = -1, frictions = -1, nz = -1,
-                       friction_bodies = -1, friction_nv = -1, size = -1;
+                       friction_bodies = -1, friction_nv = -1, friction_square = -1, size = -1;
 };
 
 template <FixedStructure M>
@@ -109,6 +111,7 @@ struct Counts<M> {
                        frictions = M::frictions.size(), nz = M::nz,
                        friction_bodies = frictions > 0 ? bodies : 0,
                        friction_nv = frictions > 0 ? nv : 0,
+                       friction_square = frictions * frictions,
                        size = M::nq + nv + nz + 2;  // of a state's record
 };
 
@@ -134,6 +137,7 @@ struct Workspace {
   Array<ContactMemory<Real>, N::contacts> memory;
   Array<JointFrictionState<Real>, N::frictions> frictions;
   Array<Real, N::friction_nv> friction_tau;           // (nv) of joints with friction
+  Array<Real, N::friction_square> friction_inverse;   // of d gap / d load, negative
   Array<Real, N::nz> z;                               // (nz) bristles: set before an evaluation
   Array<Real, N::nz> z_rate;                          // (nz)
   ReactionState<Real, N::friction_bodies> reactions;  // where joints have friction
@@ -193,6 +197,7 @@ Workspace<Real> make_workspace(const Mechanism& m) {
   w.contacts.resize(m.contacts.size());
   w.memory.resize(m.contacts.size());
   w.frictions.resize(m.frictions.size());
+  w.friction_inverse.resize(m.frictions.size() * m.frictions.size());
   w.friction_tau.assign(m.frictions.empty() ? 0 : nv, Real(0.0));
   for (auto* x : {&w.z, &w.z_rate}) x->assign(static_cast<std::size_t>(m.nz), Real(0.0));
   if (!m.frictions.empty()) {

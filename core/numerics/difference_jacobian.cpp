@@ -32,10 +32,10 @@ void DifferenceJacobian::update(const Slopes& f, double t, const double* y, doub
     moved_[k] = y[k];
   }
   const double increment = kIncrement * std::max(std::fabs(t), span);
-  const double early = t - increment, late = t + increment;
-  f(early, y, before_.data());
+  const double late = t + increment;  // f may have a corner here, as courses do
+  f(t, y, before_.data());
   f(late, y, by_time_.data());
-  divide(late - early, by_time_);
+  divide(late - t, by_time_);
 }
 
 void DifferenceJacobian::divide(double way, std::vector<double>& column) const {

@@ -14,7 +14,9 @@
 namespace linkstudy {
 namespace {
 
-constexpr double kLinearTurn = 45.0;  // deg
+constexpr double kLinearTurn = 45.0;         // deg
+constexpr double kVelocityTolerance = 1e-6;  // of the largest velocity
+constexpr double kPressed = 0.05;  // of the clearance: a journal that rests on its bearing
 
 std::string number(double x) {
   char text[32];
@@ -49,7 +51,7 @@ void warn_of_redundancy(const Linkage& linkage, Preparation& p) {
 }
 
 bool accept_velocities(const AssemblyReport& a, Preparation& p) {
-  if (a.velocity_residual <= 1e-6) return true;
+  if (a.velocity_residual <= kVelocityTolerance) return true;
   fail(p, Cause::assembly_failed,
        "the held velocities do not fit the closures: residual " + number(a.velocity_residual));
   return false;
@@ -63,8 +65,33 @@ void warn_of_flipped(const AssemblyReport& a, Preparation& p) {
   }
 }
 
+// Closed but for the clearances, the journals within their bearings: then that is what is meant.
+// Otherwise a run begins with journals in the middle.
+bool keep_loose_journals(const Linkage& linkage, const State<double>& given, Preparation& p) {
+  if (p.model.mechanism.clearances.empty()) return false;
+  Linkage loose = linkage;
+  for (Closure& c : loose.closures) {
+    if (c.model == ClosureModel::sde) c.model = ClosureModel::cut;
+  }
+  State<double> start = given;
+  const AssemblyReport a = assemble_start(compile(loose, find_idle_directions(loose)), start);
+  if (!a.closed || a.restarts > 0 || a.velocity_residual > kVelocityTolerance) return false;
+  const Mechanism& m = p.model.mechanism;
+  Workspace<double> w = make_workspace<double>(m);
+  compute_motion(m, p.model.parameters, start, w);
+  for (std::size_t i = 0; i < m.contacts.size(); ++i) {
+    const auto c = static_cast<std::size_t>(m.contacts[i].clearance);
+    if (w.contacts[i].depth > kPressed * p.model.parameters.clearances[c].radial) return false;
+  }
+  p.model.start = start;
+  if (!p.assembly.closed) p.assembly = a;
+  return true;
+}
+
 bool assemble(const Linkage& linkage, const Model& closed, Preparation& p) {
+  const State<double> given = p.model.start;
   p.assembly = assemble_start(closed, p.model.start);
+  const bool loose = keep_loose_journals(linkage, given, p);
   const AssemblyReport& a = p.assembly;
   if (!a.closed) {
     fail(p, Cause::assembly_failed,
@@ -72,8 +99,8 @@ bool assemble(const Linkage& linkage, const Model& closed, Preparation& p) {
              number(a.residual) + " after " + std::to_string(a.restarts) + " restarts");
     return false;
   }
-  if (!accept_velocities(a, p)) return false;
-  if (a.restarts > 0) {
+  if (!loose && !accept_velocities(a, p)) return false;
+  if (!loose && a.restarts > 0) {
     p.warnings.push_back("the given start did not lead to a closed pose; used restart " +
                          std::to_string(a.restarts) + ", " + number(a.displacement) + " away");
   }
@@ -93,7 +120,12 @@ Linkage with_ideal_bearings(const Linkage& linkage) {
 
 bool find_equilibrium(const Linkage& linkage, Preparation& p) {
   const Linkage ideal = with_ideal_bearings(linkage);
-  p.statics = solve_statics(compile(ideal, find_idle_directions(ideal)), p.model.start);
+  const Model at_rest = compile(ideal, find_idle_directions(ideal));
+  State<double> s = at_rest.start;  // with bristles of its own
+  s.t = p.model.start.t;
+  s.q = p.model.start.q;
+  p.statics = solve_statics(at_rest, s);
+  p.model.start.q = s.q;
   if (!p.statics->converged) {
     fail(p, Cause::statics_failed,
          "no static equilibrium after " + std::to_string(p.statics->iterations) +
@@ -104,6 +136,24 @@ bool find_equilibrium(const Linkage& linkage, Preparation& p) {
     p.warnings.push_back("the static equilibrium at the start is unstable");
   }
   return true;
+}
+
+// A joint that slides at the start has done so before: its bristles are those of steady sliding.
+void slide_bristles(Model& model) {
+  for (std::size_t i = 0; i < model.mechanism.frictions.size(); ++i) {
+    const JointFrictionStructure& f = model.mechanism.frictions[i];
+    const JointFrictionParameters<double>& n = model.parameters.frictions[i];
+    const auto rate = [&](int v, double factor) {
+      return v < 0 ? 0.0 : factor * model.start.v[static_cast<std::size_t>(v)];
+    };
+    const double turning = rate(f.turn, n.radius), sliding = rate(f.slide, 1.0);
+    const double speed = std::hypot(turning, sliding);
+    if (speed == 0.0) continue;
+    const double deflection = lugre_sliding(n.law, speed) / (n.law.sigma0 * speed);
+    double* z = &model.start.z[static_cast<std::size_t>(f.z)];
+    if (f.turn >= 0) *z++ = deflection * turning;
+    if (f.slide >= 0) *z = deflection * sliding;
+  }
 }
 
 void warn_of_step(const SimulationOptions& options, Preparation& p) {
@@ -164,6 +214,7 @@ Preparation prepare(const Linkage& linkage, const SimulationOptions& options) {
       return p;
     }
   }
+  slide_bristles(p.model);
   p.spectrum = compute_spectrum(p.model, p.model.start);
   warn_of_step(options, p);
   warn_of_tilt(linkage, p);

@@ -132,6 +132,8 @@ class Run {
       fastest = max(fastest, abs(at(y_, m_.nq + k)));
       sum = sum + (abs(at(y_, m_.nq + k)) + abs(at(w_.qdd, k)));
     });
+    for_range(Index<0>(), bristle_count(m_),
+              [&](auto i) { sum = sum + abs(at(y_, m_.nq + m_.nv + i)); });
     for_range(Index<0>(), cut_row_count(m_),
               [&](auto r) { square = madd(at(w_.cut_rows, r).d, at(w_.cut_rows, r).d, square); });
     // A lost velocity is not a number, which is not below anything.

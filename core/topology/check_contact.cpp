@@ -57,6 +57,12 @@ void check_contact(const Clearance& clearance, RecordCheck& record) {
     record.require_positive("contact.stiffness", *clearance.stiffness);
     return;
   }
+  if (clearance.exponent != 1.5) {
+    record.report("contact.stiffness",
+                  "contact.stiffness from materials holds for contact.exponent = 1.5, got " +
+                      text_of(clearance.exponent),
+                  "give contact.stiffness as a number");
+  }
   check_material("contact.bearing", clearance.bearing, record);
   check_material("contact.journal", clearance.journal, record);
 }

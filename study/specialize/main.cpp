@@ -4,6 +4,7 @@
 // usage: linkstudy_specialize NAME MODEL.toml [PATH=VALUE...] > NAME.h
 #include <fmt/core.h>
 
+#include "core/kinematics/idle_rows.h"
 #include "core/model/compile.h"
 #include "core/model/fixed_structure.h"
 #include "study/config/model_document.h"
@@ -31,7 +32,8 @@ int write(const std::string& name, int count, char** arguments) {
   fmt::print(
       "#pragma once\n\n#include <array>\n\n#include \"core/model/mechanism.h\"\n\n"
       "namespace linkstudy {{\n\n{}\n}}  // namespace linkstudy\n",
-      write_fixed_structure(compile(model->linkage).mechanism, name));
+      write_fixed_structure(compile(model->linkage, find_idle_directions(model->linkage)).mechanism,
+                            name));
   return 0;
 }
 

@@ -165,6 +165,35 @@ TEST(Clearance, Its_channels_tell_where_the_journal_is) {
   EXPECT_NEAR(probe.at("closure.B.eccentricity.y"), e.z(), 1e-15);
 }
 
+TEST(Clearance, A_journal_that_is_given_within_its_bearing_starts_there) {
+  JournalInBearing j;
+  j.position = {-0.4e-3, 0.3e-3, 0.0};
+  j.velocity = {0.1, 0.0, 0.0};
+  Clearance c = loose_bearing();
+  c.friction = table_1_friction();
+  const Preparation inside = prepare(journal_in_bearing(j, c), steps_of(1e-5, 0.1));
+  ASSERT_EQ(inside.cause, Cause::ok) << inside.message;
+  EXPECT_EQ(inside.model.start.q[0], -0.4e-3);
+  EXPECT_EQ(inside.model.start.v[0], 0.1);
+  j.position = {-0.4e-3, 3e-3, 0.0};  // outside: closed as an ideal joint
+  const Preparation outside = prepare(journal_in_bearing(j, c), steps_of(1e-5, 0.1));
+  ASSERT_EQ(outside.cause, Cause::ok) << outside.message;
+  EXPECT_NEAR(outside.model.start.q[1], 0.0, 1e-9);
+}
+
+TEST(Clearance, Equilibrium_is_that_of_the_ideal_joint) {
+  Clearance c = loose_bearing();
+  c.friction = table_1_friction();
+  Linkage linkage = journal_in_bearing({}, c);
+  linkage.gravity = {0.0, -9.81, 0.0};
+  SimulationOptions options = steps_of(1e-5, 0.01);
+  options.start = Start::equilibrium;
+  const Preparation p = prepare(linkage, options);
+  ASSERT_EQ(p.cause, Cause::ok) << p.message;
+  EXPECT_EQ(p.model.start.z.size(), 1u);
+  EXPECT_EQ(run(p.model, options).cause, Cause::ok);
+}
+
 // Without a past a contact is elastic: its generalised forces are the gradient of its energy.
 TEST(Clearance, Forces_of_skewed_contacts_are_the_gradient_of_their_energy) {
   Random random(7);

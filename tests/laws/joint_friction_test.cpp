@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "tests/mechanisms/frames.h"
+#include "tests/mechanisms/rsrrp.h"
 #include "tests/support/engine_probe.h"
 
 namespace linkstudy::testing {
@@ -113,6 +114,77 @@ TEST(Joint_friction, A_rail_that_jams_ends_the_run_with_a_cause) {
   linkage.joints[0].velocity = {10.0};
   const SimulationOutcome end = run(compile(linkage), steps_of(1e-5, 0.5));
   EXPECT_EQ(end.cause, Cause::diverged);
+}
+
+// Braking that lowers its own load: F along the rail and the centre of mass d off it, no preload:
+// N = 2 d a / l with m a = F - mu N, so N = (2 d / l) F / (1 + 2 mu d / l). From 2 mu d / l = 1 on
+// there is a second balance, in which friction overcomes the force.
+TEST(Joint_friction, A_load_that_its_own_friction_lowers_is_found) {
+  const double force = 10.0, d = 0.05, l = 0.02;
+  for (const double mu : {0.1, 0.14, 0.17, 0.19}) {
+    JointFriction f = dry(mu, mu);
+    f.length = l;
+    f.law.sigma1 = 0.0;
+    Linkage linkage = one_joint(JointType::prismatic, block(1.0, {0.0, d, 0.0}), f);
+    linkage.joints[0].velocity = {1.0};
+    Load push;
+    push.name = "push";
+    push.joint = "J";
+    push.course.value = force;
+    linkage.loads = {push};
+    SimulationOptions options = steps_of(1e-5, 0.05, 0.05);
+    const Preparation prepared = prepare(linkage, options);
+    ASSERT_EQ(prepared.cause, Cause::ok) << prepared.message;
+    const Samples samples = run(prepared.model, options, {"joint.J.normal_load"});
+    ASSERT_EQ(samples.outcome.cause, Cause::ok) << mu << ": " << samples.outcome.message;
+    const double load = 2.0 * d / l * force / (1.0 + 2.0 * mu * d / l);
+    // It slid before the run began: bristles are those of steady sliding from the first instant.
+    EXPECT_NEAR(samples.values(0, 0), load, 1e-6 * load) << mu;
+    EXPECT_NEAR(samples.values(1, 0), load, 1e-6 * load) << mu;
+  }
+}
+
+// Several joints at once, each with a load that depends on the others: friction everywhere on the
+// RSRRP, against loads found by plain substitution from outside where that converges.
+TEST(Joint_friction, Loads_of_joints_that_depend_on_each_other_are_in_balance) {
+  Linkage linkage = rsrrp();
+  for (Joint& joint : linkage.joints) {
+    joint.friction = dry(0.3, 0.3);
+    joint.friction->radius = 0.02;
+    joint.friction->length = 0.03;
+  }
+  linkage.joints[0].velocity = {3.0};
+  const SimulationOptions options = steps_of(1e-5, 0.2, 0.01);
+  const Preparation prepared = prepare(linkage, options);
+  std::vector<std::string> signals;
+  for (const char* joint : {"A", "P", "Q", "R"}) {
+    for (const char* quantity :
+         {".normal_load", ".friction", ".v", ".force_local", ".torque_local"}) {
+      signals.push_back(std::string("joint.") + joint + quantity);
+    }
+  }
+  const Samples samples = run(prepared.model, options, signals);
+  ASSERT_EQ(samples.outcome.cause, Cause::ok) << samples.outcome.message;
+  for (Eigen::Index row = 0; row < samples.values.rows(); ++row) {
+    for (Eigen::Index j = 0; j < 4; ++j) {
+      const auto at = samples.values.row(row).segment(9 * j, 9);
+      const Vector3d force(at[3], at[4], 0.0), torque(at[6], at[7], at[8]);
+      const Vector3d couple = Vector3d::UnitZ().cross(torque) / 0.03;
+      double load = (0.5 * force + couple).norm() + (0.5 * force - couple).norm();
+      if (j == 1) load += std::abs(torque.z()) / 0.02;
+      EXPECT_NEAR(at[0], load, 1e-8 * (1.0 + load)) << row << " " << j;
+    }
+  }
+}
+
+TEST(Joint_friction, The_spectrum_knows_the_stiffness_of_bristles) {
+  JointFriction f = dry(0.2, 0.2);
+  f.preload = 100.0;
+  f.law.sigma1 = 0.0;
+  const Linkage linkage = one_joint(JointType::prismatic, block(2.0), f);
+  const Model model = compile(linkage);
+  const double omega = std::sqrt(200.0 * 100.0 / 2.0);  // sigma0 N / m
+  EXPECT_NEAR(compute_spectrum(model, model.start).omega_max, omega, 1e-3 * omega);
 }
 
 // A screwing slider: friction acts against the whole sliding velocity, (r omega, v).
