@@ -171,7 +171,9 @@ template <class M, class Real>
 inline void settle_joint_friction(const M& m, const Parameters<Real>& p, const Real* v,
                                   Workspace<Real, M>& w) {
   w.jammed = 0;
-  if (friction_count(m) > 0) balance_joint_friction(m, p, v, w);
+  if constexpr (Counts<M>::frictions != 0) {
+    if (friction_count(m) > 0) balance_joint_friction(m, p, v, w);
+  }
 }
 
 }  // namespace linkstudy

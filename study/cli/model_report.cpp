@@ -97,6 +97,13 @@ std::vector<std::string> outcome_notes(const SimulationOutcome& outcome,
                     "simulation.integrator = \"adaptive\"",
                     least, kStepsOfContact));
   }
+  if (options.integrator == Integrator::rk4 && outcome.contacts > 0 &&
+      outcome.cause == Cause::diverged) {
+    notes.push_back(
+        "constant steps are unstable where friction damps fast (sigma1 times normal force over "
+        "mass): "
+        "use simulation.integrator = \"adaptive\", or friction.damping_speed");
+  }
   if (outcome.greatest_rank > outcome.least_rank) {
     notes.push_back(
         fmt::format("the rank of the closure equations changed between {} and {}: a singular pose "

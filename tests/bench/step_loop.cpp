@@ -14,8 +14,7 @@
 #include "core/flexible/rigid_finite_elements.h"
 #include "study/specialize/fixed_kernels.h"
 #include "tests/bench/engine_runs.h"
-#include "tests/mechanisms/journal_in_bearing.h"
-#include "tests/mechanisms/rsrrp.h"
+#include "tests/mechanisms/rsup.h"
 #include "tests/support/trace_formulas.h"
 
 namespace linkstudy::testing {
@@ -91,18 +90,6 @@ Linkage flexible_rsrrp() {
   return expand_flexible_links(linkage);
 }
 
-// RSRRP with a loose pin between coupler and yoke, and LuGre friction there. The load at its start
-// presses journal and bearing together.
-Linkage loose_rsrrp() {
-  Linkage linkage = rsrrp_revolute();
-  Closure& pin = linkage.closures[0];
-  pin.model = ClosureModel::clearance;
-  pin.clearance = loose_bearing();
-  pin.clearance.friction = table_1_friction();
-  pin.second.frame.position += pin.second.frame.rotation.col(1) * 1.002e-3;
-  return linkage;
-}
-
 }  // namespace
 }  // namespace linkstudy::testing
 
@@ -116,7 +103,7 @@ int main(int argc, char** argv) {
   linkstudy::Linkage revolute = linkstudy::testing::rsrrp_revolute();
   revolute.closures[0].model = ClosureModel::sde;
   measure("revolute", revolute);
-  measure("clearance", loose_rsrrp());
-  measure("flexible, 19 freedoms", flexible_rsrrp());
+  measure("clearance", rsup({.clearance = linkstudy::ClearanceKind::planar}));
+  measure("flexible", flexible_rsrrp());
   return argc < 2 || std::min(spring, cut) >= std::atof(argv[1]) ? 0 : 1;
 }

@@ -2,6 +2,7 @@
 // general one, and giving way to it where rows become dependent.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "core/model/fixed_structure.h"
@@ -37,7 +38,8 @@ struct Specialised {
 const std::vector<Specialised>& specialised() {
   static const std::vector<Specialised> all = {{"rsrrp.toml", {"closure.S.model=sde"}},
                                                {"rsrrp.toml", {"closure.S.model=cut"}},
-                                               {"rsrrp_revolute.toml", {"closure.R.model=sde"}}};
+                                               {"rsrrp_revolute.toml", {"closure.R.model=sde"}},
+                                               {"rsup_clearance_planar.toml", {}}};
   return all;
 }
 
@@ -68,7 +70,7 @@ bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
 bool is_abandoned(const Kernel& kernel, const Model& model) {
   std::vector<double> y = model.start.q;
   y.insert(y.end(), model.start.v.begin(), model.start.v.end());
-  y.insert(y.end(), 2, 0.0);
+  y.insert(y.end(), static_cast<std::size_t>(model.mechanism.nz) + 2, 0.0);
   std::vector<double> final_y = y;
   Observers none;
   LaneEnd end;
@@ -100,7 +102,7 @@ TEST(FixedKernels, Whole_runs_have_the_bits_of_the_general_step_loop) {
   add_once();
   for (const Specialised& s : specialised()) {
     ModelInput input = read_config(s.file, s.set);
-    input.options.end_time = 3.0;
+    input.options.end_time = std::min(3.0, 6e4 * input.options.step);
     const Preparation p = prepare(input.linkage, input.options);
     ASSERT_EQ(p.cause, Cause::ok) << p.message;
     for (const SimdLevel& level : testing::simd_levels()) {
@@ -112,6 +114,8 @@ TEST(FixedKernels, Whole_runs_have_the_bits_of_the_general_step_loop) {
         EXPECT_EQ(a.cause, Cause::ok) << a.message;
         EXPECT_TRUE(same_bits(a.final_state.q, b.final_state.q)) << s.file << lanes;
         EXPECT_TRUE(same_bits(a.final_state.v, b.final_state.v)) << s.file << lanes;
+        EXPECT_TRUE(same_bits(a.final_state.z, b.final_state.z)) << s.file << lanes;
+        EXPECT_EQ(a.contacts, b.contacts);
         EXPECT_EQ(a.drift_max, b.drift_max);
         EXPECT_EQ(a.energy_residual_max, b.energy_residual_max);
         EXPECT_TRUE(same_bits(fixed.observers.back().series[0].values,
@@ -150,8 +154,9 @@ TEST(FixedStructure, The_source_text_lists_every_member) {
   const Mechanism m = compile(read_config("rsrrp.toml", {}).linkage).mechanism;
   const std::string text = write_fixed_structure(m, "sample");
   EXPECT_NE(text.find("struct sample {"), std::string::npos);
-  for (const char* member : {"bodies", "stages", "v_parent", "velocities", "ball_q", "closures",
-                             "cut_rows", "sde_rows", "support", "loads", "projects"}) {
+  for (const char* member :
+       {"bodies", "stages", "v_parent", "velocities", "ball_q", "closures", "cut_rows", "sde_rows",
+        "support", "loads", "joint_springs", "clearances", "contacts", "frictions", "projects"}) {
     EXPECT_NE(text.find(member), std::string::npos) << member;
   }
 }
