@@ -35,7 +35,7 @@ def shortened(path):
 
 class Configs(unittest.TestCase):
     def test_there_are_mechanisms_and_studies(self):
-        self.assertGreaterEqual(len(files_in("mechanisms")), 17)
+        self.assertGreaterEqual(len(files_in("mechanisms")), 19)
         self.assertGreaterEqual(len(files_in("studies")), 10)
 
     def test_every_file_is_right(self):

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <complex>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -58,19 +59,43 @@ Rows read_rows(const std::string& csv) {
   return rows;
 }
 
+// The point at distance a from P and b from Q that lies to the left of the way from P to Q.
+std::complex<double> apex(std::complex<double> P, std::complex<double> Q, double a, double b) {
+  const double base = std::abs(Q - P);
+  const double along = (a * a - b * b + base * base) / (2.0 * base);
+  return P + (Q - P) / base * std::complex<double>(along, std::sqrt(a * a - along * along));
+}
+
+// Of planar_two_loop: angle of the lever as a function of that of the crank, two triangles.
+double lever_angle(double crank) {
+  const std::complex<double> B = std::polar(0.1, crank), D = 0.4, G(-0.1, 0.45);
+  const std::complex<double> C = apex(B, D, 0.35, 0.3);
+  const std::complex<double> E = B + (C - B) / 0.35 * std::complex<double>(0.2, 0.15);
+  return std::arg(apex(G, E, 0.25, 0.3) - G);
+}
+
+// Of a function with one maximum between the two.
+template <class F>
+double largest(F f, double low, double high) {
+  for (int i = 0; i < 100; ++i) {
+    const double third = (high - low) / 3.0;
+    if (f(low + third) < f(high - third)) {
+      low += third;
+    } else {
+      high -= third;
+    }
+  }
+  return f(low);
+}
+
 TEST_F(Kinematics, Tells_the_mobility_of_every_model_in_configs) {
   const std::vector<std::tuple<std::string, int, int, int>> known = {
-      {"bennett", 1, -2, 3},
-      {"rssr", 2, 2, 0},
-      {"rccc", 1, 1, 0},
-      {"slider_crank", 1, -2, 3},
-      {"stewart", 6, 6, 0},
-      {"four_bar", 1, -2, 3},
-      {"n_four_bar", 1, -5, 6},
-      {"pendulum", 1, 1, 0},
-      {"rsrrp", 1, 1, 0},
-      {"rsrrp_revolute", 1, 1, 0},
-      {"spatial_slider_crank", 1, 1, 0}};
+      {"bennett", 1, -2, 3},       {"rssr", 2, 2, 0},
+      {"rccc", 1, 1, 0},           {"slider_crank", 1, -2, 3},
+      {"stewart", 6, 6, 0},        {"four_bar", 1, -2, 3},
+      {"n_four_bar", 1, -5, 6},    {"planar_two_loop", 1, -5, 6},
+      {"pendulum", 1, 1, 0},       {"rsrrp", 1, 1, 0},
+      {"rsrrp_revolute", 1, 1, 0}, {"spatial_slider_crank", 1, 1, 0}};
   for (const auto& [name, mobility, kutzbach, redundant] : known) {
     const json j = object(name);
     EXPECT_EQ(j["mobility"], mobility) << name;
@@ -123,6 +148,42 @@ TEST_F(Kinematics, Says_where_a_driven_slider_locks) {
   EXPECT_NEAR(j["singular_positions"][0]["position"].get<double>(), 0.4, 1e-9);
   const std::string text = analyse("slider_crank", "--drive joint.P --to 0.1").out;
   EXPECT_THAT(text, AllOf(HasSubstr("locks: cannot be driven beyond 0.2"), HasSubstr("joint.A")));
+}
+
+TEST_F(Kinematics, Finds_both_locks_of_a_crank_that_cannot_turn_fully) {
+  // Coupler and rocker in line: 0.45^2 = 0.4^2 + 0.25^2 - 2 0.4 0.25 cos(angle).
+  const double limit = std::acos(0.1);
+  const json crank = object("four_bar_double_rocker");
+  EXPECT_FALSE(crank["complete"]);
+  EXPECT_EQ(crank["mobility"], 1);
+  ASSERT_EQ(crank["singular_positions"].size(), 2u);
+  EXPECT_EQ(crank["singular_positions"][0]["kind"], "lock");
+  EXPECT_EQ(crank["singular_positions"][1]["kind"], "lock");
+  EXPECT_NEAR(crank["singular_positions"][0]["position"].get<double>(), limit, 1e-9);
+  EXPECT_NEAR(crank["singular_positions"][1]["position"].get<double>(), -limit, 1e-9);
+  const json rocker = object("four_bar_double_rocker", "--drive joint.D --to 1.0");
+  ASSERT_EQ(rocker["singular_positions"].size(), 1u);
+  EXPECT_NEAR(rocker["singular_positions"][0]["position"].get<double>(), M_PI - limit, 1e-9);
+}
+
+TEST_F(Kinematics, Of_two_loops_follows_the_closed_form_around) {
+  const Rows rows = read_rows(analyse("planar_two_loop", "--csv -").out);
+  ASSERT_EQ(rows.values.size(), 73u);
+  for (std::size_t i = 0; i < 73; ++i) {
+    EXPECT_NEAR(rows.at(i, "joint.G.q"), lever_angle(rows.at(i, "joint.A.q")), 1e-9) << i;
+  }
+}
+
+TEST_F(Kinematics, Of_two_loops_locks_at_both_ends_of_the_lever) {
+  const double up = largest(lever_angle, 1.0, 2.0);
+  const double down = -largest([](double crank) { return -lever_angle(crank); }, 4.0, 5.0);
+  const json rising = object("planar_two_loop", "--drive joint.G --to 1.0");
+  const json sinking = object("planar_two_loop", "--drive joint.G --to -1.0");
+  ASSERT_EQ(rising["singular_positions"].size(), 1u);
+  ASSERT_EQ(sinking["singular_positions"].size(), 1u);
+  EXPECT_EQ(rising["singular_positions"][0]["kind"], "lock");
+  EXPECT_NEAR(rising["singular_positions"][0]["position"].get<double>(), up, 1e-9);
+  EXPECT_NEAR(sinking["singular_positions"][0]["position"].get<double>(), down, 1e-9);
 }
 
 TEST_F(Kinematics, Leaves_velocities_out_where_branches_cross) {
