@@ -8,6 +8,7 @@
 #include "core/dynamics/effective_mass.h"
 #include "core/dynamics/motion.h"
 #include "core/kinematics/idle_rows.h"
+#include "core/kinematics/mobility.h"
 #include "core/numerics/rank.h"
 #include "core/simulation/simulate.h"
 
@@ -29,6 +30,33 @@ void fail(Preparation& p, Cause cause, std::string message) {
   p.message = std::move(message);
 }
 
+// Joints that hold a motion twice, " (a, b)", or nothing.
+std::string holding_joints(const MobilityReport& r) {
+  std::string names;
+  for (const CarriedRedundancy& joint : r.redundant_joints) {
+    names += (names.empty() ? " (held twice: " : ", ") + joint.joint;
+  }
+  return names.empty() ? names : names + ")";
+}
+
+// Whether the linkage has fewer independent equations everywhere, or at the start only.
+void describe_redundancy(const Linkage& linkage, int redundant, int rows, Preparation& p) {
+  Linkage cuts = linkage;
+  std::erase_if(cuts.closures, [](const Closure& c) { return c.model == ClosureModel::sde; });
+  const MobilityReport r = analyse_mobility(compile(cuts), p.model.start);
+  if (r.state == SingularState::instantaneous) {
+    p.warnings.push_back("the start is a singular position: " + std::to_string(r.rank.rank) +
+                         " of " + std::to_string(rows) +
+                         " closure equations are independent there, " +
+                         std::to_string(r.regular_rank) +
+                         " around it; reactions there are not determined: start elsewhere");
+    return;
+  }
+  p.warnings.push_back(std::to_string(redundant) + " of " + std::to_string(rows) +
+                       " closure equations are redundant at the start" + holding_joints(r) +
+                       ": multipliers are those of least norm, single reactions are not unique");
+}
+
 // Replacement joints have no multipliers: only cut joints can be redundant.
 void warn_of_redundancy(const Linkage& linkage, Preparation& p) {
   const int rows = compile(linkage).mechanism.cut_row_count();
@@ -37,9 +65,7 @@ void warn_of_redundancy(const Linkage& linkage, Preparation& p) {
       compute_closure_equations(p.model.mechanism, p.model.parameters, p.model.start);
   const int rank = held > 0 ? numerical_rank(e.jacobian, kRankTolerance).rank : 0;
   if (rank == rows) return;
-  p.warnings.push_back(std::to_string(rows - rank) + " of " + std::to_string(rows) +
-                       " closure equations are redundant at the start: multipliers are those "
-                       "of least norm, single reactions are not unique");
+  describe_redundancy(linkage, rows - rank, rows, p);
   const auto& closures = p.model.mechanism.closures;
   const bool drifts = std::any_of(closures.begin(), closures.end(), [](const auto& c) {
     return c.model == ClosureModel::cut && c.stabilization == Stabilization::none;

@@ -57,11 +57,11 @@ void check_contact(const Clearance& clearance, RecordCheck& record) {
     record.require_positive("contact.stiffness", *clearance.stiffness);
     return;
   }
-  if (clearance.exponent != 1.5) {
-    record.report("contact.stiffness",
-                  "contact.stiffness from materials holds for contact.exponent = 1.5, got " +
+  if (clearance.exponent >= 1.0 && clearance.exponent != 1.5) {
+    record.report("contact.exponent",
+                  "contact.exponent must be 1.5 where K follows from the materials, got " +
                       text_of(clearance.exponent),
-                  "give contact.stiffness as a number");
+                  "give contact.stiffness, K in N/m^exponent");
   }
   check_material("contact.bearing", clearance.bearing, record);
   check_material("contact.journal", clearance.journal, record);

@@ -87,7 +87,7 @@ KinematicsResult analyse(const CommandLine& line, const Model& closed) {
 int run_kinematics(const CommandLine& line) {
   if (line.csv) require_writable(*line.csv);
   const ModelInput input = read_model_input(line);
-  const Model closed = compile_closed(input.linkage);
+  const Model closed = compile_closed(input.rigid);
   const KinematicsResult result = analyse(line, closed);
   const std::string text = kinematics_text(line.inputs.front(), input.name, result);
   if (line.csv) {

@@ -50,19 +50,6 @@ Material read_material(const Tree& contact, const char* body) {
   return material;
 }
 
-// The K of Hertz is one in N/m^1.5.
-void require_stiffness(Tree& contact, const Closure& closure, Diagnostics& diagnostics) {
-  Tree* exponent = contact.find("exponent");
-  const bool is_wanted = closure.model == ClosureModel::clearance && exponent->is_valid();
-  if (!is_wanted || closure.clearance.stiffness || closure.clearance.exponent == 1.5) return;
-  diagnostics.add(exponent->at,
-                  fmt::format("closure '{}': contact.exponent must be 1.5 where K follows from the "
-                              "materials, got {:.9g}",
-                              closure.name, closure.clearance.exponent),
-                  "give contact.stiffness, K in N/m^exponent");
-  exponent->kind = Kind::invalid;
-}
-
 void read_contact(const Tree& contact, Clearance& clearance) {
   clearance.law = law_of(word_of(contact, "law"));
   clearance.restitution = number_of(contact, "restitution", clearance.restitution);
@@ -96,7 +83,6 @@ void read_clearance(Tree& closure_table, Closure& closure, Diagnostics& diagnost
   Tree* contact = closure_table.find("contact");
   if (contact != nullptr && contact->is(Kind::table)) {
     read_contact(*contact, clearance);
-    require_stiffness(*contact, closure, diagnostics);
   }
   const Tree* friction = closure_table.find("friction");
   if (friction != nullptr && friction->is(Kind::table)) {

@@ -80,6 +80,8 @@ std::optional<ModelInput> ModelDocument::with(std::span<const Override> override
   ModelInput input = read_model(std::move(tree), found);
   diagnostics.append(found);
   if (!found.empty()) return std::nullopt;
+  input.rigid = input.linkage;
+  for (Link& link : input.rigid.links) link.flexible.reset();
   input.linkage = expand_flexible_links(input.linkage);
   return input;
 }

@@ -11,6 +11,7 @@ namespace linkstudy {
 
 struct ModelInput {
   Linkage linkage;
+  Linkage rigid;  // with every flexible link as one rigid link
   SimulationOptions options;
   std::string name;
   Tree resolved;  // every default and override filled in: the text of resolved.toml

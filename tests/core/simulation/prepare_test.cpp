@@ -1,12 +1,14 @@
 // What a user is told before a run, and what not.
 #include "core/simulation/prepare.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
+#include "tests/mechanisms/four_bar.h"
 #include "tests/mechanisms/rsrrp.h"
 #include "tests/support/engine_probe.h"
 
@@ -48,6 +50,27 @@ TEST(Prepare, Warns_of_a_linearized_tilt_where_the_joint_is_turned_beyond_45_deg
   Linkage exact = turned_revolute(90.0);
   exact.closures[0].sde.tilt = TiltMeasure::axis;
   EXPECT_EQ(warning_about("linearized", exact), "");
+}
+
+TEST(Prepare, Joints_that_hold_a_motion_twice_are_named) {
+  const Preparation p = prepare(four_bar(), steps_of(1e-3, 1.0));
+  ASSERT_EQ(p.cause, Cause::ok) << p.message;
+  EXPECT_THAT(p.warnings, ::testing::Contains(::testing::AllOf(
+                              ::testing::HasSubstr("3 of 5 closure equations are redundant"),
+                              ::testing::HasSubstr("joint.A"), ::testing::HasSubstr("closure.C"))));
+}
+
+// A parallelogram stretched out: there the coupler may fold either way.
+TEST(Prepare, A_start_at_a_singular_position_is_told_from_redundant_joints) {
+  Linkage linkage = four_bar({.crank = 0.1, .coupler = 0.4, .rocker = 0.1, .ground = 0.4});
+  for (Joint& joint : linkage.joints) {
+    joint.position = {0.0};
+    joint.velocity = {0.0};
+  }
+  const Preparation p = prepare(linkage, steps_of(1e-3, 1.0));
+  ASSERT_EQ(p.cause, Cause::ok) << p.message;
+  EXPECT_THAT(p.warnings, ::testing::Contains(
+                              ::testing::HasSubstr("the start is a singular position: 1 of 5")));
 }
 
 }  // namespace linkstudy::testing

@@ -164,8 +164,11 @@ TEST(CheckClearance, Contact_values_are_those_of_a_contact) {
   EXPECT_THAT(paths_with([](Clearance& c) {
                 c.restitution = 1.0;
                 c.exponent = 1.0;
+                c.stiffness = 1e7;
               }),
               IsEmpty());
+  EXPECT_THAT(paths_with([](Clearance& c) { c.exponent = 1.4; }),
+              ElementsAre("closure.R.contact.exponent"));
   const double infinity = std::numeric_limits<double>::infinity();
   EXPECT_THAT(paths_with([&](Clearance& c) {
                 c.bearing = {0.0, 0.6};
