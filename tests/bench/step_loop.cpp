@@ -72,21 +72,12 @@ double measure(const char* name, const Linkage& linkage) {
   return one_lane;
 }
 
-// RSRRP with its coupler as six rigid finite elements: 4 + 3 * 5 freedoms. Steel, 20 mm round.
+// RSRRP with its coupler as six rigid finite elements: 4 + 3 * 5 freedoms.
 Linkage flexible_rsrrp() {
   Linkage linkage = rsrrp_test_vector(ClosureModel::sde);
   Link& coupler = *std::find_if(linkage.links.begin(), linkage.links.end(),
                                 [](const Link& link) { return link.name == "coupler"; });
-  FlexibleBeam beam;
-  beam.segments = 5;
-  beam.end = {0.0, 0.5, 0.0};
-  beam.across = {1.0, 0.0, 0.0};
-  beam.young = 207e9;
-  beam.shear = 80e9;
-  beam.second_moment_y = beam.second_moment_z = 7.854e-9;
-  beam.torsion_constant = 1.571e-8;
-  beam.retardation = 1e-5;
-  coupler.flexible = beam;
+  coupler.flexible = steel_rod(5);
   return expand_flexible_links(linkage);
 }
 

@@ -19,6 +19,8 @@ Clearance loose_pin(const Rsup& options) {
   return c;
 }
 
+}  // namespace
+
 FlexibleBeam steel_rod(int segments) {
   constexpr double kDiameter = 22e-3;
   const double second_moment = M_PI * std::pow(kDiameter, 4) / 64.0;
@@ -33,8 +35,6 @@ FlexibleBeam steel_rod(int segments) {
   beam.retardation = 1e-5;
   return beam;
 }
-
-}  // namespace
 
 Linkage rsup(const Rsup& options) {
   Linkage linkage = rsrrp_revolute();

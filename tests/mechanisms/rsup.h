@@ -21,6 +21,9 @@ struct Rsup {
   double at_speed = 9.0;                     // rad/s
 };
 
+// The flexible coupler: along y of the link frame, from its origin.
+FlexibleBeam steel_rod(int segments);
+
 inline constexpr double kFast = 30.0;  // rad/s, load set "fast"
 
 // Tree A, S (zyx angles), P, Q as in rsrrp_revolute, then the joints inside the coupler; closure R,
