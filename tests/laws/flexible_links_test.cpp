@@ -8,7 +8,7 @@
 #include "core/dynamics/motion.h"
 #include "core/flexible/rigid_finite_elements.h"
 #include "tests/mechanisms/cantilever.h"
-#include "tests/mechanisms/rsrrp.h"
+#include "tests/mechanisms/rsup.h"
 #include "tests/support/engine_probe.h"
 #include "tests/support/near.h"
 
@@ -163,6 +163,28 @@ TEST(FlexibleLinks, Vibration_fades_with_the_logarithmic_decrement_of_the_materi
     const double decrement = std::log(s.values(k, 0) / s.values(k + 1, 0));
     EXPECT_NEAR(decrement, 2.0 * M_PI * zeta / std::sqrt(1.0 - zeta * zeta), 1e-6 * decrement);
   }
+}
+
+// The crank is moved and given a speed: joints close the loop, the coupler stays straight.
+TEST(FlexibleLinks, A_start_is_closed_by_joints_and_not_by_bending_links) {
+  Linkage linkage = rsup({.segments = 4});
+  linkage.joints[0].position = {0.1};
+  linkage.joints[0].velocity = {9.0};
+  linkage.joints[0].hold = true;
+  const Preparation p = prepare(linkage, steps_of(1e-5, 0.01));
+  ASSERT_EQ(p.cause, Cause::ok) << p.message;
+  EXPECT_GT(p.assembly.displacement, 1e-3);
+  int elements = 0;
+  const Mechanism& m = p.model.mechanism;
+  for (std::size_t b = 1; b < m.bodies.size(); ++b) {
+    if (m.joint_names[b].find("_sde") == std::string::npos) continue;
+    ++elements;
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_EQ(p.model.start.q[static_cast<std::size_t>(m.bodies[b].q_begin) + i], 0.0);
+      EXPECT_EQ(p.model.start.v[static_cast<std::size_t>(m.bodies[b].v_begin) + i], 0.0);
+    }
+  }
+  EXPECT_EQ(elements, 4);
 }
 
 }  // namespace linkstudy::testing
