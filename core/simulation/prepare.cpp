@@ -1,6 +1,7 @@
 #include "core/simulation/prepare.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -58,9 +59,10 @@ void describe_redundancy(const Linkage& linkage, int redundant, int rows, Prepar
 }
 
 // Replacement joints have no multipliers: only cut joints can be redundant.
-void warn_of_redundancy(const Linkage& linkage, Preparation& p) {
-  const int rows = compile(linkage).mechanism.cut_row_count();
+void warn_of_redundancy(const Linkage& linkage, const std::vector<unsigned>& idle, Preparation& p) {
   const int held = p.model.mechanism.cut_row_count();
+  int rows = held;
+  for (const unsigned directions : idle) rows += std::popcount(directions);
   const ClosureEquations e =
       compute_closure_equations(p.model.mechanism, p.model.parameters, p.model.start);
   const int rank = held > 0 ? numerical_rank(e.jacobian, kRankTolerance).rank : 0;
@@ -114,7 +116,8 @@ bool keep_loose_journals(const Linkage& linkage, const State<double>& given, Pre
   return true;
 }
 
-bool assemble(const Linkage& linkage, const Model& closed, Preparation& p) {
+bool assemble(const Linkage& linkage, const std::vector<unsigned>& idle, const Model& closed,
+              Preparation& p) {
   const State<double> given = p.model.start;
   p.assembly = assemble_start(closed, p.model.start);
   const bool loose = keep_loose_journals(linkage, given, p);
@@ -131,7 +134,7 @@ bool assemble(const Linkage& linkage, const Model& closed, Preparation& p) {
                          std::to_string(a.restarts) + ", " + number(a.displacement) + " away");
   }
   warn_of_flipped(a, p);
-  warn_of_redundancy(linkage, p);
+  warn_of_redundancy(linkage, idle, p);
   return true;
 }
 
@@ -226,9 +229,10 @@ void warn_of_tilt(const Linkage& linkage, Preparation& p) {
 
 Preparation prepare(const Linkage& linkage, const SimulationOptions& options) {
   Preparation p;
-  p.model = compile(linkage, find_idle_directions(linkage));
+  const std::vector<unsigned> idle = find_idle_directions(linkage);
+  p.model = compile(linkage, idle);
   const Model closed = compile_closed(linkage);
-  if (!assemble(linkage, closed, p)) return p;
+  if (!assemble(linkage, idle, closed, p)) return p;
   resolve_damping(linkage, p.model.start, p.model);
   const std::vector<double> velocities = p.model.start.v;
   if (options.start == Start::equilibrium) {

@@ -1,6 +1,7 @@
 #include "tests/mechanisms/loose_slider_crank.h"
 
 #include "tests/mechanisms/frames.h"
+#include "tests/mechanisms/joint_at.h"
 #include "tests/mechanisms/journal_in_bearing.h"
 
 namespace linkstudy::testing {
@@ -14,17 +15,6 @@ constexpr double kCrank = 0.05, kRod = 0.12;  // m
 Link bar(const std::string& name, double mass, double length, double inertia) {
   return {
       name, mass, Vector3d(length / 2, 0, 0), Vector3d(1e-5, inertia, inertia).asDiagonal(), {}};
-}
-
-Joint joint(const std::string& name, JointType type, const std::string& parent,
-            const std::string& child, const Frame& frame) {
-  Joint made;
-  made.name = name;
-  made.type = type;
-  made.parent = parent;
-  made.child = child;
-  made.frame = frame;
-  return made;
 }
 
 Closure pin(ClearanceKind kind) {
@@ -50,13 +40,13 @@ Linkage loose_slider_crank(ClearanceKind kind, double crank_speed) {
   linkage.links = {bar("crank", 0.3, kCrank, 1e-4),
                    bar("rod", 0.21, kRod, 2.5e-4),
                    {"slider", 0.14, Vector3d::Zero(), 1e-4 * Matrix3d::Identity(), {}}};
-  Joint A = joint("A", JointType::cylindrical, kGround, "crank", {});
+  Joint A = joint_at("A", JointType::cylindrical, kGround, "crank", {});
   A.velocity = {crank_speed, 0.0};
-  Joint B = joint("B", JointType::spherical, "crank", "rod",
-                  {Matrix3d::Identity(), Vector3d(kCrank, 0, 0)});
+  Joint B = joint_at("B", JointType::spherical, "crank", "rod",
+                     {Matrix3d::Identity(), Vector3d(kCrank, 0, 0)});
   B.velocity = {-crank_speed * (1.0 + kCrank / kRod), 0.0, 0.0};
-  Joint P = joint("P", JointType::prismatic, kGround, "slider",
-                  {rotation_about(1, M_PI / 2), Vector3d(kCrank + kRod, 0, 0)});
+  Joint P = joint_at("P", JointType::prismatic, kGround, "slider",
+                     {rotation_about(1, M_PI / 2), Vector3d(kCrank + kRod, 0, 0)});
   // Axes of the slider are those of the ground.
   P.child_frame.rotation = rotation_about(1, M_PI / 2);
   linkage.joints = {A, B, P};

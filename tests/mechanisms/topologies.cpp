@@ -4,6 +4,7 @@
 
 #include "core/flexible/rigid_finite_elements.h"
 #include "tests/mechanisms/frames.h"
+#include "tests/mechanisms/joint_at.h"
 #include "tests/mechanisms/rsup.h"
 
 namespace linkstudy::testing {
@@ -39,17 +40,6 @@ JointFriction bearing_friction() {
   return f;
 }
 
-Joint joint(const std::string& name, JointType type, const std::string& parent,
-            const std::string& child, const Frame& frame) {
-  Joint made;
-  made.name = name;
-  made.type = type;
-  made.parent = parent;
-  made.child = child;
-  made.frame = frame;
-  return made;
-}
-
 Frame half_turned(const Frame& frame) {
   const Matrix3d turn = rotation_about(2, M_PI);
   return {turn * frame.rotation, turn * frame.position};
@@ -63,16 +53,16 @@ Linkage jib() {
   linkage.gravity = {0.0, 0.0, -9.81};
   linkage.links = {body("column", 4.0, {0.02, 0.0, 0.2}, {0.06, 0.06, 0.01}), boom(),
                    body("carriage", 0.5, {0.0, 0.0, -0.05}, {1e-3, 1e-3, 1e-3})};
-  Joint A = joint("A", JointType::revolute, kGround, "column", {});
+  Joint A = joint_at("A", JointType::revolute, kGround, "column", {});
   A.friction = bearing_friction();
   // Horizontal, about -y of the column, so that the boom rises with its angle.
-  Joint B = joint("B", JointType::revolute, "column", "boom",
-                  {rotation_about(0, M_PI / 2), {0.05, 0.0, 0.4}});
+  Joint B = joint_at("B", JointType::revolute, "column", "boom",
+                     {rotation_about(0, M_PI / 2), {0.05, 0.0, 0.4}});
   B.position = {0.3};
   B.friction = bearing_friction();
   // Frame of the boom: y up. The carriage slides along x.
-  Joint C = joint("C", JointType::prismatic, "boom", "carriage",
-                  {rotation_about(1, M_PI / 2), {0.6, 0.0, 0.0}});
+  Joint C = joint_at("C", JointType::prismatic, "boom", "carriage",
+                     {rotation_about(1, M_PI / 2), {0.6, 0.0, 0.0}});
   C.friction = bearing_friction();
   C.stiffness = {400.0};
   linkage.joints = {A, B, C};
@@ -89,15 +79,15 @@ Linkage satellite() {
   linkage.name = "satellite";
   linkage.links = {body("hub", 5.0, {0.01, 0.0, 0.02}, {0.05, 0.06, 0.04}), boom(),
                    body("wheel", 0.8, {0.0, 2e-3, 0.0}, {1e-3, 1e-3, 2e-3})};
-  Joint F = joint("F", JointType::free, kGround, "hub", {});
+  Joint F = joint_at("F", JointType::free, kGround, "hub", {});
   F.velocity = {0.1, -0.2, 0.05, 0.3, 0.1, -0.2};
   Joint B =
-      joint("B", JointType::revolute, "hub", "boom", {rotation_about(0, 0.4), {0.15, 0.0, 0.0}});
+      joint_at("B", JointType::revolute, "hub", "boom", {rotation_about(0, 0.4), {0.15, 0.0, 0.0}});
   B.stiffness = {6.0};
   B.rest = {1.0};
   B.friction = bearing_friction();
-  Joint W =
-      joint("W", JointType::revolute, "hub", "wheel", {rotation_about(1, 0.7), {-0.1, 0.05, 0.0}});
+  Joint W = joint_at("W", JointType::revolute, "hub", "wheel",
+                     {rotation_about(1, 0.7), {-0.1, 0.05, 0.0}});
   W.velocity = {80.0};
   W.friction = bearing_friction();
   linkage.joints = {F, B, W};
