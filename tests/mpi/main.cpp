@@ -280,7 +280,7 @@ int run_until_stopped(Transport& transport, int target, int signal, const std::s
     const auto outcome = pool.run(count_up(seen.size()), [&](const TaskResult& result) {
       ++seen[result.index];
       highest = std::max<std::size_t>(highest, result.index);
-      if (highest == 20) touch(marker);
+      if (result.index == 20) touch(marker);
     });
     const auto answered = std::accumulate(seen.begin(), seen.end(), std::size_t{0});
     expect(outcome.end == RunEnd::signal, "the run ends by a signal");

@@ -15,7 +15,11 @@ trap 'rm -rf "$TMPDIR"' EXIT
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_pml=ob1
 export OMPI_MCA_orte_abort_on_non_zero_status=0
 
-fail() { echo "FAILED: $*"; exit 1; }
+fail() {
+  echo "FAILED: $*"
+  [ -z "${job:-}" ] || kill -KILL "$job" 2>/dev/null
+  exit 1
+}
 
 # Each rank leaves its exit code in a file: mpirun itself tells only one.
 launch() {
