@@ -1,0 +1,35 @@
+// How driven joint coordinates are to move over the time of a course: the [kinematics] table of a
+// model. With s = t / duration from 0 to 1 a drive goes from `from` to `to` by
+//   linear          s
+//   smooth          3 s^2 - 2 s^3                  at rest at both ends
+//   polynomial_345  10 s^3 - 15 s^4 + 6 s^5        at rest, without acceleration at both ends
+//   table           a cubic spline through (times, positions)
+// Units: s, rad or m.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace linkstudy {
+
+enum class MotionLaw { linear, smooth, polynomial_345, table };
+
+struct DriveCourse {
+  std::string joint;
+  int coordinate = 0;          // within the joint
+  std::optional<double> from;  // empty: where the linkage stands
+  std::optional<double> to;    // empty: a full turn, or a tenth of the linkage's extent
+  MotionLaw law = MotionLaw::linear;
+  std::vector<double> times;      // table: rising, the first is 0
+  std::vector<double> positions;  // table: as many
+};
+
+struct KinematicsOptions {
+  std::vector<DriveCourse> drives;
+  // Empty: the last time of a table; else what the first drive needs at 1 rad/s or 1 m/s.
+  std::optional<double> duration;
+  int positions = 73;  // evenly spaced in time, both ends included
+};
+
+}  // namespace linkstudy
