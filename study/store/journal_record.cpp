@@ -6,7 +6,7 @@
 #include <boost/crc.hpp>
 #include <limits>
 
-#include "study/record/bytes.h"
+#include "study/record/evaluation_bytes.h"
 #include "study/store/store_error.h"
 
 namespace linkstudy {
@@ -24,42 +24,12 @@ std::uint32_t crc32(std::string_view first, std::string_view second = {}) {
   return crc.checksum();
 }
 
-void put(ByteWriter& out, const Value& value) {
-  const double* number = std::get_if<double>(&value);
-  out.put_u8(number != nullptr);
-  number != nullptr ? out.put_f64(*number) : out.put_text(std::get<std::string>(value));
-}
-
-Value get_value(ByteReader& in) {
-  if (in.get_u8() != 0) {
-    return in.get_f64();
-  }
-  return in.get_text();
-}
-
-void put(ByteWriter& out, const std::vector<double>& values) {
-  out.put_u64(values.size());
-  for (double value : values) {
-    out.put_f64(value);
-  }
-}
-
-std::vector<double> get_numbers(ByteReader& in) {
-  std::vector<double> values(in.get_count(sizeof(double)));
-  std::ranges::generate(values, [&] { return in.get_f64(); });
-  return values;
-}
-
 void put(ByteWriter& out, const Evaluation& evaluation) {
   out.put_u8(static_cast<std::uint8_t>(Kind::evaluation));
-  out.put_u64(evaluation.point.id);
-  out.put_u64(evaluation.point.values.size());
-  for (const Value& value : evaluation.point.values) {
-    put(out, value);
-  }
-  out.put_u8(static_cast<std::uint8_t>(evaluation.status));
+  put_point(out, evaluation.point);
+  put_cause(out, evaluation.status);
   out.put_text(evaluation.message);
-  put(out, evaluation.responses);
+  put_numbers(out, evaluation.responses);
   out.put_u32(evaluation.attempts);
   out.put_i64(evaluation.parent);
   out.put_f64(evaluation.wall_s);
@@ -67,19 +37,9 @@ void put(ByteWriter& out, const Evaluation& evaluation) {
   out.put_text(evaluation.host);
 }
 
-Cause get_cause(ByteReader& in) {
-  const std::uint8_t number = in.get_u8();
-  if (number >= kCauseNames.size()) {
-    throw StoreError(fmt::format("journal holds the unknown status {}", number));
-  }
-  return static_cast<Cause>(number);
-}
-
 Evaluation get_evaluation(ByteReader& in) {
   Evaluation evaluation;
-  evaluation.point.id = in.get_u64();
-  evaluation.point.values.resize(in.get_count(1));
-  std::ranges::generate(evaluation.point.values, [&] { return get_value(in); });
+  evaluation.point = get_point(in);
   evaluation.status = get_cause(in);
   evaluation.message = in.get_text();
   evaluation.responses = get_numbers(in);
@@ -95,24 +55,14 @@ void put(ByteWriter& out, const TraceSet& set) {
   out.put_u8(static_cast<std::uint8_t>(Kind::traces));
   out.put_text(set.name);
   out.put_i64(set.evaluation);
-  out.put_u64(set.traces.size());
-  for (const Trace& trace : set.traces) {
-    out.put_text(trace.name);
-    out.put_text(trace.unit);
-    put(out, trace.values);
-  }
+  put_traces(out, set.traces);
 }
 
-TraceSet get_traces(ByteReader& in) {
+TraceSet get_trace_set(ByteReader& in) {
   TraceSet set;
   set.name = in.get_text();
   set.evaluation = in.get_i64();
-  set.traces.resize(in.get_count(1));
-  for (Trace& trace : set.traces) {
-    trace.name = in.get_text();
-    trace.unit = in.get_text();
-    trace.values = get_numbers(in);
-  }
+  set.traces = get_traces(in);
   return set;
 }
 
@@ -203,7 +153,7 @@ JournalRecord get_record(ByteReader& in) {
     case Kind::evaluation:
       return get_evaluation(in);
     case Kind::traces:
-      return get_traces(in);
+      return get_trace_set(in);
     case Kind::text:
       return get_named_text(in);
     case Kind::provenance:
