@@ -31,11 +31,7 @@ std::string csv_cell(const Cell& cell) {
 
 template <class Content>
 std::string csv_line(const Table& table, Content content) {
-  std::string text;
-  for (std::size_t i = 0; i < table.columns.size(); ++i) {
-    text += (i == 0 ? "" : ",") + content(i);
-  }
-  return text + "\n";
+  return joined_columns(table, ",", content) + "\n";
 }
 
 nlohmann::ordered_json json_cell(const Cell& cell) {

@@ -59,11 +59,7 @@ std::string latex_cell(const TableColumn& column, const Cell& cell) {
 
 template <class Content>
 std::string line(const Table& table, Content content) {
-  std::string text;
-  for (std::size_t i = 0; i < table.columns.size(); ++i) {
-    text += (i == 0 ? "" : " & ") + content(i);
-  }
-  return text + " \\\\\n";
+  return joined_columns(table, " & ", content) + " \\\\\n";
 }
 
 }  // namespace
