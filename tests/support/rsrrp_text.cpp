@@ -3,9 +3,9 @@
 #include <stdexcept>
 
 namespace linkstudy::test {
+namespace {
 
-std::string rsrrp_text() {
-  return R"(format = 1
+constexpr const char* kRsrrp = R"(format = 1
 kind = "model"
 name = "RSRRP linkage, reference set R1"
 gravity = [0.0, -9.81, 0.0]
@@ -91,6 +91,11 @@ integrator = "rk4"
 start = "equilibrium"
 output_interval = 1.0e-2
 )";
+
+}  // namespace
+
+std::string rsrrp_text() {
+  return kRsrrp;
 }
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {

@@ -1,5 +1,6 @@
 #include "study/evaluate/evaluator.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <stdlib.h>
 
@@ -14,53 +15,43 @@ namespace {
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
+std::string link_text(const char* name, double centre, const char* inertia) {
+  return fmt::format(R"(
+[[link]]
+name = "{}"
+mass = 1.0
+center_of_mass = [{}, 0.0, 0.0]
+inertia = {}
+)",
+                     name, centre, inertia);
+}
+
+// A hinge `at` along x of its parent, turned by `degrees` at the start.
+std::string hinge_text(const char* name, const char* parent, const char* child, double at,
+                       int degrees) {
+  return fmt::format(R"(
+[[joint]]
+name = "{}"
+type = "revolute"
+parent = "{}"
+child = "{}"
+frame = {{ position = [{}, 0.0, 0.0] }}
+initial = {{ position = ["{} deg"] }}
+)",
+                     name, parent, child, at, degrees);
+}
+
 // A parallelogram: crank, coupler and rocker in the plane z = 0, closed at C.
-constexpr const char* kModel = R"(format = 1
+std::string model_text() {
+  const char* short_link = "[1e-3, 4e-3, 4e-3]";
+  return R"(format = 1
 kind = "model"
 name = "four-bar"
 gravity = [0.0, -9.81, 0.0]
-
-[[link]]
-name = "crank"
-mass = 1.0
-center_of_mass = [0.1, 0.0, 0.0]
-inertia = [1e-3, 4e-3, 4e-3]
-
-[[link]]
-name = "rod"
-mass = 1.0
-center_of_mass = [0.25, 0.0, 0.0]
-inertia = [1e-3, 2e-2, 2e-2]
-
-[[link]]
-name = "rocker"
-mass = 1.0
-center_of_mass = [0.1, 0.0, 0.0]
-inertia = [1e-3, 4e-3, 4e-3]
-
-[[joint]]
-name = "A"
-type = "revolute"
-parent = "ground"
-child = "crank"
-initial = { position = ["60 deg"] }
-
-[[joint]]
-name = "B"
-type = "revolute"
-parent = "crank"
-child = "rod"
-frame = { position = [0.2, 0.0, 0.0] }
-initial = { position = ["-60 deg"] }
-
-[[joint]]
-name = "D"
-type = "revolute"
-parent = "rod"
-child = "rocker"
-frame = { position = [0.5, 0.0, 0.0] }
-initial = { position = ["-120 deg"] }
-
+)" + link_text("crank", 0.1, short_link) +
+         link_text("rod", 0.25, "[1e-3, 2e-2, 2e-2]") + link_text("rocker", 0.1, short_link) +
+         hinge_text("A", "ground", "crank", 0.0, 60) + hinge_text("B", "crank", "rod", 0.2, -60) +
+         hinge_text("D", "rod", "rocker", 0.5, -120) + R"(
 [[closure]]
 name = "C"
 type = "spherical"
@@ -73,22 +64,30 @@ sde = { stiffness = 1e5, damping_ratio = 0.7 }
 end_time = 0.1
 step = 1e-3
 )";
+}
 
 constexpr const char* kHead = R"(format = 1
 kind = "study"
 model = "model.toml"
 )";
 
+std::string vary_text(const char* parameter, const char* values) {
+  return fmt::format("[[vary]]\nparameter = \"{}\"\nvalues = [{}]\n", parameter, values);
+}
+
+constexpr const char* kWeightless = "base = { set = { gravity = [0.0, 0.0, 0.0] } }\n";
+
 class Evaluation : public ::testing::Test {
  protected:
   Evaluation() {
     std::string pattern = (fs::temp_directory_path() / "linkstudy_evaluate.XXXXXX").string();
     directory_ = ::mkdtemp(pattern.data());
-    std::ofstream(directory_ / "model.toml") << kModel;
+    std::ofstream(directory_ / "model.toml") << model_text();
   }
   ~Evaluation() override { fs::remove_all(directory_); }
 
-  std::unique_ptr<Evaluator> make(const std::string& study) {
+  // Null with diagnostics where the study is wrong.
+  std::unique_ptr<Evaluator> try_to_make(const std::string& study) {
     const std::string path = (directory_ / "study.toml").string();
     std::ofstream(path) << kHead << study;
     std::optional<StudyInput> input = read_study(path, {}, diagnostics_);
@@ -102,16 +101,21 @@ class Evaluation : public ::testing::Test {
     return Evaluator::make(std::move(*input), parameters, first, diagnostics_);
   }
 
-  static CaseResult evaluate(Evaluator& evaluator, const std::vector<Value>& point) {
-    return evaluator.evaluate({&point, 1}).at(0);
+  void make(const std::string& study) {
+    evaluator_ = try_to_make(study);
+    if (!evaluator_) throw std::logic_error(said());
+  }
+
+  CaseResult evaluate(const std::vector<Value>& point) {
+    return evaluator_->evaluate({&point, 1}).at(0);
   }
 
   static std::string bytes_of(const CaseResult& result) { return encode_results({&result, 1}); }
 
-  static double number(const Evaluator& evaluator, const CaseResult& result,
-                       const std::string& name) {
-    for (std::size_t i = 0; i < evaluator.responses().size(); ++i) {
-      if (evaluator.responses()[i].name == name) return result.responses.at(i);
+  double number(const CaseResult& result, const std::string& name) const {
+    const std::vector<Response>& responses = evaluator_->responses();
+    for (std::size_t i = 0; i < responses.size(); ++i) {
+      if (responses[i].name == name) return result.responses.at(i);
     }
     ADD_FAILURE() << "no response " << name;
     return std::nan("");
@@ -121,6 +125,7 @@ class Evaluation : public ::testing::Test {
 
   fs::path directory_;
   Diagnostics diagnostics_;
+  std::unique_ptr<Evaluator> evaluator_;
 };
 
 constexpr const char* kAgainstItself = R"(
@@ -134,56 +139,60 @@ tolerance = 0.01
 )";
 
 TEST_F(Evaluation, Of_the_reference_itself_has_no_error_at_all) {
-  const auto evaluator = make(kAgainstItself);
-  ASSERT_TRUE(evaluator) << said();
-  const CaseResult result = evaluate(*evaluator, {1e-3});
+  make(kAgainstItself);
+  const CaseResult result = evaluate({1e-3});
   EXPECT_EQ(result.status, Cause::ok) << result.message;
   for (const char* axis : {"x", "y", "z"}) {
-    EXPECT_EQ(number(*evaluator, result, std::string("error_max_closure_C_force_") + axis), 0.0);
-    EXPECT_EQ(number(*evaluator, result, std::string("error_rms_closure_C_force_") + axis), 0.0);
+    EXPECT_EQ(number(result, std::string("error_max_closure_C_force_") + axis), 0.0);
+    EXPECT_EQ(number(result, std::string("error_rms_closure_C_force_") + axis), 0.0);
   }
-  EXPECT_EQ(number(*evaluator, result, "steps"), 100.0);
-  EXPECT_DOUBLE_EQ(number(*evaluator, result, "end_time"), 0.1);
+  EXPECT_EQ(number(result, "steps"), 100.0);
+  EXPECT_DOUBLE_EQ(number(result, "end_time"), 0.1);
 }
 
 TEST_F(Evaluation, Against_a_turned_signal_is_off_by_twice_its_size) {
-  const auto evaluator =
-      make(std::string(kAgainstItself) + "reference_signal = \"-closure.C.force\"\n");
-  ASSERT_TRUE(evaluator) << said();
-  const CaseResult result = evaluate(*evaluator, {1e-3});
-  EXPECT_DOUBLE_EQ(number(*evaluator, result, "error_max_closure_C_force_y"), 2.0);
-  EXPECT_DOUBLE_EQ(number(*evaluator, result, "error_rms_closure_C_force_y"), 2.0);
+  make(std::string(kAgainstItself) + "reference_signal = \"-closure.C.force\"\n");
+  const CaseResult result = evaluate({1e-3});
+  EXPECT_DOUBLE_EQ(number(result, "error_max_closure_C_force_y"), 2.0);
+  EXPECT_DOUBLE_EQ(number(result, "error_rms_closure_C_force_y"), 2.0);
 }
 
 TEST_F(Evaluation, At_half_the_step_differs_by_the_order_of_RK4_only) {
-  const auto evaluator = make(kAgainstItself);
-  ASSERT_TRUE(evaluator) << said();
-  const CaseResult half = evaluate(*evaluator, {5e-4});
-  EXPECT_GT(number(*evaluator, half, "error_max_closure_C_force_y"), 0.0);
-  EXPECT_LT(number(*evaluator, half, "error_max_closure_C_force_y"), 1e-6);
+  make(kAgainstItself);
+  const CaseResult half = evaluate({5e-4});
+  EXPECT_GT(number(half, "error_max_closure_C_force_y"), 0.0);
+  EXPECT_LT(number(half, "error_max_closure_C_force_y"), 1e-6);
 }
 
 TEST_F(Evaluation, Without_a_common_time_grid_is_an_invalid_point) {
-  const auto evaluator = make(kAgainstItself);
-  ASSERT_TRUE(evaluator) << said();
-  const CaseResult result = evaluate(*evaluator, {0.1 / 1009});  // 1009 is prime and over the limit
+  make(kAgainstItself);
+  const CaseResult result = evaluate({0.1 / 1009});  // 1009 is prime and over the limit
   EXPECT_EQ(result.status, Cause::invalid_point);
   EXPECT_THAT(result.message, HasSubstr("no common time grid"));
-  EXPECT_EQ(result.responses.size(), evaluator->responses().size());
+  EXPECT_EQ(result.responses.size(), evaluator_->responses().size());
 }
 
 TEST_F(Evaluation, Of_an_impossible_value_is_an_invalid_point_with_its_reason) {
-  const auto evaluator = make("[[vary]]\nparameter = \"link.rod.mass\"\nvalues = [1.0]\n");
-  ASSERT_TRUE(evaluator) << said();
-  const CaseResult result = evaluate(*evaluator, {-1.0});
+  make(vary_text("link.rod.mass", "1.0"));
+  const CaseResult result = evaluate({-1.0});
   EXPECT_EQ(result.status, Cause::invalid_point);
   EXPECT_THAT(result.message, HasSubstr("mass must be positive"));
 }
 
 TEST_F(Evaluation, Is_the_same_to_the_last_bit_when_repeated) {
-  const auto evaluator = make(kAgainstItself);
-  ASSERT_TRUE(evaluator) << said();
-  EXPECT_EQ(bytes_of(evaluate(*evaluator, {5e-4})), bytes_of(evaluate(*evaluator, {5e-4})));
+  make(kAgainstItself);
+  EXPECT_EQ(bytes_of(evaluate({5e-4})), bytes_of(evaluate({5e-4})));
+}
+
+std::string with_speed(const char* study) {
+  return study + std::string(R"(
+[[response]]
+name = "speed"
+signal = "joint.A.v"
+reduce = "last"
+[[trace]]
+signals = ["joint.A.v"]
+)");
 }
 
 constexpr const char* kTwoLoads = R"(
@@ -196,12 +205,6 @@ values = [1e5]
 signal = "closure.C.force"
 norm = "rms"
 tolerance = 0.01
-[[response]]
-name = "speed"
-signal = "joint.A.v"
-reduce = "last"
-[[trace]]
-signals = ["joint.A.v"]
 [[load_case]]
 name = "light"
 [[load_case]]
@@ -210,64 +213,56 @@ set = { "link.rod.mass" = 10.0 }
 )";
 
 TEST_F(Evaluation, Answers_every_load_case_under_its_name) {
-  const auto evaluator = make(kTwoLoads);
-  ASSERT_TRUE(evaluator) << said();
-  const CaseResult result = evaluate(*evaluator, {1e5});
+  make(with_speed(kTwoLoads));
+  const CaseResult result = evaluate({1e5});
   ASSERT_EQ(result.status, Cause::ok) << result.message;
-  const double light = number(*evaluator, result, "light_gap_max");
-  const double heavy = number(*evaluator, result, "heavy_gap_max");
+  const double light = number(result, "light_gap_max");
+  const double heavy = number(result, "heavy_gap_max");
   EXPECT_GT(light, 0.0);
   EXPECT_GT(heavy, 3.0 * light);  // ten times the rod on the same spring
-  ASSERT_EQ(evaluator->judged_errors().size(), 6u);
-  EXPECT_EQ(evaluator->judged_errors()[3].name, "heavy.closure.C.force.x");
-  const std::size_t index = evaluator->judged_errors()[4].response;
-  EXPECT_EQ(evaluator->responses()[index].name, "heavy_error_rms_closure_C_force_y");
-  EXPECT_EQ(evaluator->worst(RunNumber::omega_max, result.responses),
-            std::max(number(*evaluator, result, "light_omega_max"),
-                     number(*evaluator, result, "heavy_omega_max")));
-  EXPECT_EQ(evaluator->worst(RunNumber::step_limit, result.responses),
-            std::min(number(*evaluator, result, "light_step_limit"),
-                     number(*evaluator, result, "heavy_step_limit")));
+  ASSERT_EQ(evaluator_->judged_errors().size(), 6u);
+  EXPECT_EQ(evaluator_->judged_errors()[3].name, "heavy.closure.C.force.x");
+  const std::size_t index = evaluator_->judged_errors()[4].response;
+  EXPECT_EQ(evaluator_->responses()[index].name, "heavy_error_rms_closure_C_force_y");
+  EXPECT_EQ(evaluator_->worst(RunNumber::omega_max, result.responses),
+            std::max(number(result, "light_omega_max"), number(result, "heavy_omega_max")));
+  EXPECT_EQ(evaluator_->worst(RunNumber::step_limit, result.responses),
+            std::min(number(result, "light_step_limit"), number(result, "heavy_step_limit")));
 }
 
 TEST_F(Evaluation, Keeps_traces_that_end_with_the_last_response) {
-  const auto evaluator = make(kTwoLoads);
-  ASSERT_TRUE(evaluator) << said();
-  const CaseResult result = evaluate(*evaluator, {1e5});
+  make(with_speed(kTwoLoads));
+  const CaseResult result = evaluate({1e5});
   ASSERT_EQ(result.traces.size(), 2u);
   EXPECT_EQ(result.traces[1].load_case, "heavy");
   const std::vector<Trace>& traces = result.traces[1].traces;
   ASSERT_EQ(traces.size(), 2u);
   EXPECT_EQ(traces[0].name, "time");
   EXPECT_DOUBLE_EQ(traces[0].values.back(), 0.1);
-  EXPECT_EQ(traces[1].values.back(), number(*evaluator, result, "heavy_speed"));
-  evaluator->run_references(nullptr);
-  EXPECT_EQ(evaluator->reference_traces().size(), 2u);
+  EXPECT_EQ(traces[1].values.back(), number(result, "heavy_speed"));
+  evaluator_->run_references(nullptr);
+  EXPECT_EQ(evaluator_->reference_traces().size(), 2u);
 }
 
 TEST_F(Evaluation, Names_the_load_case_that_failed_and_keeps_what_is_known) {
-  const auto evaluator = make(kTwoLoads);
-  ASSERT_TRUE(evaluator) << said();
-  const CaseResult result = evaluate(*evaluator, {1e12});
+  make(with_speed(kTwoLoads));
+  const CaseResult result = evaluate({1e12});
   EXPECT_NE(result.status, Cause::ok);
   EXPECT_THAT(result.message, HasSubstr("load case 'light'"));
-  EXPECT_TRUE(std::isnan(number(*evaluator, result, "light_error_max_closure_C_force_x")));
-  EXPECT_LT(number(*evaluator, result, "light_step_limit"), 1e-3);
-  EXPECT_TRUE(std::isnan(number(*evaluator, result, "heavy_step_limit")));
+  EXPECT_TRUE(std::isnan(number(result, "light_error_max_closure_C_force_x")));
+  EXPECT_LT(number(result, "light_step_limit"), 1e-3);
+  EXPECT_TRUE(std::isnan(number(result, "heavy_step_limit")));
 }
 
 TEST_F(Evaluation, Ends_at_its_time_limit) {
-  const auto evaluator = make(
-      "base = { set = { gravity = [0.0, 0.0, 0.0] } }\n"
-      "[[vary]]\nparameter = \"simulation.end_time\"\nvalues = [1e5]\n");
-  ASSERT_TRUE(evaluator) << said();
-  evaluator->set_timeout(0.05);
-  const CaseResult result = evaluate(*evaluator, {1e5});
+  make(kWeightless + vary_text("simulation.end_time", "1e5"));
+  evaluator_->set_timeout(0.05);
+  const CaseResult result = evaluate({1e5});
   EXPECT_EQ(result.status, Cause::timeout) << result.message;
 }
 
 TEST_F(Evaluation, Stops_the_study_when_the_reference_fails) {
-  const auto evaluator = make(R"(
+  make(R"(
 reference = { set = { "closure.C.model" = "sde", "closure.C.sde.stiffness" = 1e12 } }
 [[vary]]
 parameter = "link.rod.mass"
@@ -276,9 +271,8 @@ values = [1.0]
 signal = "closure.C.force"
 tolerance = 0.01
 )");
-  ASSERT_TRUE(evaluator) << said();
   try {
-    evaluator->run_references(nullptr);
+    evaluator_->run_references(nullptr);
     FAIL() << "the reference runs";
   } catch (const ReferenceFailure& failure) {
     EXPECT_THAT(failure.what(), HasSubstr("the reference run failed"));
@@ -287,8 +281,8 @@ tolerance = 0.01
 
 TEST_F(Evaluation, Reports_unknown_signals_at_their_place_with_the_nearest) {
   EXPECT_FALSE(
-      make("[[vary]]\nparameter = \"link.rod.mass\"\nvalues = [1.0]\n"
-           "[[response]]\nname = \"f\"\nsignal = \"closure.C.fors\"\nreduce = \"max\"\n"));
+      try_to_make(vary_text("link.rod.mass", "1.0") +
+                  "[[response]]\nname = \"f\"\nsignal = \"closure.C.fors\"\nreduce = \"max\"\n"));
   EXPECT_THAT(said(), HasSubstr("study.toml:9:10: error: there is no signal 'closure.C.fors'"));
   EXPECT_THAT(said(), HasSubstr("closure.C.force"));
 }
@@ -312,12 +306,6 @@ values = [1.0]
 [[match]]
 signal = "closure.C.force"
 tolerance = 0.01
-[[response]]
-name = "speed"
-signal = "joint.A.v"
-reduce = "last"
-[[trace]]
-signals = ["joint.A.v"]
 [[load_case]]
 name = "as_is"
 [[load_case]]
@@ -337,16 +325,14 @@ std::vector<std::vector<Value>> mixed_points() {
 }
 
 TEST_F(Evaluation, Of_a_point_is_the_same_to_the_last_bit_alone_and_beside_others) {
-  const auto evaluator = make(kMixed);
-  ASSERT_TRUE(evaluator) << said();
+  make(with_speed(kMixed));
   const std::vector<std::vector<Value>> points = mixed_points();
-  const std::vector<CaseResult> together = evaluator->evaluate(points);
+  const std::vector<CaseResult> together = evaluator_->evaluate(points);
   ASSERT_EQ(together.size(), points.size());
   std::map<Cause, int> causes;
   for (std::size_t i = 0; i < points.size(); ++i) {
     ++causes[together[i].status];
-    EXPECT_EQ(bytes_of(together[i]), bytes_of(evaluate(*evaluator, points[i])))
-        << i << together[i].message;
+    EXPECT_EQ(bytes_of(together[i]), bytes_of(evaluate(points[i]))) << i << together[i].message;
   }
   EXPECT_EQ(causes[Cause::ok], 15);
   EXPECT_EQ(causes[Cause::invalid_point], 2);
@@ -356,30 +342,23 @@ TEST_F(Evaluation, Of_a_point_is_the_same_to_the_last_bit_alone_and_beside_other
 
 // 1e18 steps are more than there is memory for: thrown, and tried three times.
 TEST_F(Evaluation, That_throws_is_tried_again_and_disturbs_no_other) {
-  const auto evaluator = make(
-      "[[vary]]\nparameter = \"simulation.end_time\"\nvalues = [0.1]\n"
-      "[[vary]]\nparameter = \"link.rod.mass\"\nvalues = [1.0]\n");
-  ASSERT_TRUE(evaluator) << said();
+  make(vary_text("simulation.end_time", "0.1") + vary_text("link.rod.mass", "1.0"));
   const std::vector<std::vector<Value>> points = {{0.1, 1.0}, {1e15, 1.0}, {0.1, 2.0}};
-  const std::vector<CaseResult> results = evaluator->evaluate(points);
+  const std::vector<CaseResult> results = evaluator_->evaluate(points);
   EXPECT_EQ(results[1].status, Cause::exception) << results[1].message;
   EXPECT_EQ(results[1].attempts, 3u);
   for (const std::size_t i : {0, 2}) {
     EXPECT_EQ(results[i].status, Cause::ok) << results[i].message;
     EXPECT_EQ(results[i].attempts, 1u);
-    EXPECT_EQ(bytes_of(results[i]), bytes_of(evaluate(*evaluator, points[i])));
+    EXPECT_EQ(bytes_of(results[i]), bytes_of(evaluate(points[i])));
   }
 }
 
 TEST_F(Evaluation, Side_by_side_ends_at_one_time_limit_and_spares_those_that_are_shorter) {
-  const auto evaluator = make(
-      "base = { set = { gravity = [0.0, 0.0, 0.0] } }\n"
-      "[[vary]]\nparameter = \"simulation.end_time\"\nvalues = [0.1]\n"
-      "[[vary]]\nparameter = \"link.rod.mass\"\nvalues = [1.0]\n");
-  ASSERT_TRUE(evaluator) << said();
-  evaluator->set_timeout(0.3);
+  make(kWeightless + vary_text("simulation.end_time", "0.1") + vary_text("link.rod.mass", "1.0"));
+  evaluator_->set_timeout(0.3);
   const std::vector<std::vector<Value>> points = {{1e5, 1.0}, {0.1, 1.0}, {1e5, 2.0}, {0.1, 2.0}};
-  const std::vector<CaseResult> results = evaluator->evaluate(points);
+  const std::vector<CaseResult> results = evaluator_->evaluate(points);
   EXPECT_EQ(results[0].status, Cause::timeout);
   EXPECT_EQ(results[2].status, Cause::timeout);
   EXPECT_EQ(results[1].status, Cause::ok) << results[1].message;
