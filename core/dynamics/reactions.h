@@ -7,34 +7,10 @@
 #pragma once
 
 #include "core/dynamics/mass_matrix.h"
+#include "core/kinematics/body_accelerations.h"
 #include "core/kinematics/closure_kinematics.h"
 
 namespace linkstudy {
-
-// Accelerations with qdd: what each velocity adds is alpha += e qdd (rotation), a += e qdd
-// (translation), carried outwards by a += alpha x shift.
-template <class M, class B, class Real, class Bodies>
-inline void add_joint_accelerations(const M& m, const Parameters<Real>& p,
-                                    const Workspace<Real, M>& w, B b, Bodies& moving) {
-  const auto parent = parent_of(m, b);
-  BodyState<Real>& s = at(moving, b);
-  const BodyState<Real>& sp = at(moving, parent);
-  const BodyState<Real>& wp = at(w.bodies, parent);
-  Vec3<Real> alpha = sp.alpha - wp.alpha;
-  Vec3<Real> a = sp.a - wp.a + cross(alpha, at(w.bodies, b).p - wp.p);
-  for_velocities_of(m, b, [&](auto k) {
-    const Velocity& velocity = at(m.velocities, k);
-    const Vec3<Real> e = at(w.qdd, k) * at(w.axes, k);
-    if (velocity.kind == VelocityKind::translation) {
-      a = a + e;
-      return;
-    }
-    alpha = alpha + e;
-    if (velocity.kind == VelocityKind::screw) a = madd(at(p.pitch, velocity.stage), e, a);
-  });
-  s.alpha = s.alpha + alpha;
-  s.a = s.a + a;
-}
 
 // Scratch and result of `update_reactions`.
 template <class Real, class M = Mechanism>

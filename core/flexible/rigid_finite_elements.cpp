@@ -96,6 +96,9 @@ class Expansion {
     for (Load& load : to_.loads) {
       if (load.link == name_) load.link = element_of(load.point);
     }
+    for (ChosenPoint& point : to_.points) {
+      if (point.link == name_) point.link = element_of(point.position);
+    }
     grow_tree();
   }
 

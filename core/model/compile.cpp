@@ -115,6 +115,7 @@ class Compiler {
     for (const Joint* joint : tree_order(linkage_, body_of_)) add_body(*joint);
     for (const Closure& closure : linkage_.closures) add_closure(closure);
     for (const Load& load : linkage_.loads) add_load(load);
+    for (const ChosenPoint& point : linkage_.points) add_point(point);
     return std::move(model_);
   }
 
@@ -461,6 +462,14 @@ class Compiler {
     }
     s.table_end = mechanism().table_segments;
     p.value = course.values.front();
+  }
+
+  void add_point(const ChosenPoint& point) {
+    const int body = body_of_.at(point.link);
+    const Frame& f = link_frames_[static_cast<std::size_t>(body)];
+    mechanism().point_bodies.push_back(body);
+    mechanism().point_names.push_back(point.name);
+    parameters().points.push_back(to_vec3(f.rotation * point.position + f.position));
   }
 
   const Linkage& linkage_;

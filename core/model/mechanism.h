@@ -161,17 +161,21 @@ struct Mechanism {
   int table_segments = 0;
   bool projects = false;  // some cut closure asks for coordinate projection
 
+  // Of what is only looked at: chosen points. The step loop does not know them.
+  std::vector<int> point_bodies;
+
   // Names, for channels and messages only.
   std::vector<std::string> link_names;     // by body
   std::vector<std::string> joint_names;    // by body; [0] empty
   std::vector<std::string> closure_names;  // by closure
+  std::vector<std::string> point_names;    // by chosen point
 
   int body_count() const { return static_cast<int>(bodies.size()); }
   int cut_row_count() const { return static_cast<int>(cut_rows.size()); }
   int sde_row_count() const { return static_cast<int>(sde_rows.size()); }
 };
 
-// True if cases of a and b may share a step loop (names aside).
+// True if cases of a and b may share a step loop (names and chosen points aside).
 bool same_structure(const Mechanism& a, const Mechanism& b);
 
 }  // namespace linkstudy

@@ -84,6 +84,7 @@ struct Parameters {
   std::vector<ClearanceParameters<Real>> clearances;
   std::vector<JointFrictionParameters<Real>> frictions;
   std::vector<SegmentParameters<Real>> segments;
+  std::vector<Vec3<Real>> points;  // chosen points, internal frames, m
 };
 
 }  // namespace linkstudy

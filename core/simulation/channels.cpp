@@ -28,6 +28,7 @@ class Lister {
       add_vector(name + ".gap", "m", Quantity::closure_gap, closure);
       add_clearances_of(closure, name);
     }
+    for (std::size_t i = 0; i < m_.point_bodies.size(); ++i) add_point(i);
     add("energy.kinetic", "J", Quantity::kinetic, 0, 0);
     add("energy.potential", "J", Quantity::potential, 0, 0);
     add("energy.supplied", "J", Quantity::supplied, 0, 0);
@@ -44,6 +45,17 @@ class Lister {
   void add_vector(const std::string& name, const std::string& unit, Quantity quantity, int index) {
     constexpr const char* axes[] = {".x", ".y", ".z"};
     for (int i = 0; i < 3; ++i) add(name + axes[i], unit, quantity, index, i);
+  }
+
+  void add_point(std::size_t i) {
+    const std::string name = "point." + m_.point_names[i];
+    const auto first = static_cast<std::ptrdiff_t>(channels_.size());
+    const int index = static_cast<int>(i);
+    add_vector(name + ".position", "m", Quantity::point_position, index);
+    add_vector(name + ".velocity", "m/s", Quantity::point_velocity, index);
+    add_vector(name + ".acceleration", "m/s^2", Quantity::point_acceleration, index);
+    for (auto c = channels_.begin() + first; c != channels_.end(); ++c)
+      c->body = m_.point_bodies[i];
   }
 
   void add_joint(int b) {

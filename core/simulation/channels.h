@@ -16,6 +16,8 @@
 //                                bearing
 //                                (-x and +x); friction against the journal's turn in the bearing
 //   closure.N.contact_state      0 free, 1 one point, 2 two points on opposite sides, 3 line
+//   point.N.position|velocity|acceleration.x|y|z
+//                                of a chosen point, ground axes
 //   energy.kinetic|potential|supplied|dissipated|residual
 #pragma once
 
@@ -46,6 +48,9 @@ enum class Quantity : std::uint8_t {
   contact_state,
   friction_load,
   joint_friction,
+  point_position,
+  point_velocity,
+  point_acceleration,
   kinetic,
   potential,
   supplied,
@@ -57,8 +62,9 @@ struct Channel {
   std::string name;
   std::string unit;
   Quantity quantity;
-  int index = 0;      // coordinate, body, closure, clearance, contact, bristle or friction
+  int index = 0;      // coordinate, body, closure, clearance, contact, bristle, friction or point
   int component = 0;  // 0 1 2 for x y z
+  int body = 0;       // that carries a point
 };
 
 // All channels of a mechanism in a fixed order, time first.

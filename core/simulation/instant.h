@@ -4,12 +4,13 @@
 #include "core/closures/closure_wrench.h"
 #include "core/dynamics/energy.h"
 #include "core/dynamics/reactions.h"
+#include "core/kinematics/point_motion.h"
 #include "core/simulation/channels.h"
 
 namespace linkstudy {
 
-// Values of one instant from which channels are read. Reactions and energies are computed when a
-// channel first asks for them.
+// Values of one instant from which channels are read. Reactions, accelerations of bodies and
+// energies are computed when a channel first asks for them.
 template <class Real, class M = Mechanism>
 class Instant {
  public:
@@ -20,7 +21,7 @@ class Instant {
   void move_to(double t, const Real* y) {
     t_ = t;
     y_ = y;
-    has_reactions_ = has_energy_ = false;
+    has_reactions_ = has_accelerations_ = has_energy_ = false;
   }
   void set_initial_energy(Real e) { initial_energy_ = e; }
 
@@ -62,6 +63,10 @@ class Instant {
       case Quantity::joint_friction:
         return c.component == 0 ? at(w_.frictions, c.index).on_turn
                                 : at(w_.frictions, c.index).on_slide;
+      case Quantity::point_position:
+      case Quantity::point_velocity:
+      case Quantity::point_acceleration:
+        return component(point(c), c.component);
       default:
         return energy(c.quantity);
     }
@@ -122,9 +127,19 @@ class Instant {
     }
   }
 
+  Vec3<Real> point(const Channel& c) {
+    const Vec3<Real>& at_body = at(p_.points, c.index);
+    const BodyState<Real>& body = at(w_.bodies, c.body);
+    if (c.quantity == Quantity::point_position) return point_position(body, at_body);
+    if (c.quantity == Quantity::point_velocity) return point_velocity(body, at_body);
+    if (!has_accelerations_) update_body_accelerations(m_, p_, w_, reactions_.moving);
+    has_accelerations_ = true;
+    return point_acceleration(at(reactions_.moving, c.body), p_.gravity, at_body);
+  }
+
   Real reaction(const Channel& c) {
     if (!has_reactions_) update_reactions(m_, p_, w_, reactions_);
-    has_reactions_ = true;
+    has_reactions_ = has_accelerations_ = true;
     const BodyState<Real>& b = at(w_.bodies, c.index);
     const Wrench<Real>& f = at(reactions_.on_child, c.index);
     const bool force =
@@ -144,6 +159,7 @@ class Instant {
   Energy<Real> energy_{};
   Real initial_energy_ = Real(0.0);
   bool has_reactions_ = false;
+  bool has_accelerations_ = false;  // in reactions_.moving
   bool has_energy_ = false;
 };
 

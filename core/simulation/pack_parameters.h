@@ -62,6 +62,7 @@ inline Parameters<Real> pack_parameters(const LaneCase* cases, int count) {
   pack_all(packed.clearances, &Numbers::clearances);
   pack_all(packed.frictions, &Numbers::frictions);
   pack_all(packed.segments, &Numbers::segments);
+  pack_all(packed.points, &Numbers::points);
   return packed;
 }
 

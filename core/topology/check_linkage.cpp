@@ -26,12 +26,14 @@ class Checker {
     check_names("joint", linkage_.joints);
     check_names("closure", linkage_.closures);
     check_names("load", linkage_.loads);
+    check_names("point", linkage_.points);
     check_link_values();
     check_element_names();
     check_joints();
     check_tree();
     check_closures();
     check_loads();
+    check_points();
     return std::move(problems_);
   }
 
@@ -279,6 +281,16 @@ class Checker {
                " coordinates, counted from 0, got " + std::to_string(load.coordinate),
            count == 0 ? "a fixed joint cannot carry a load; choose another joint"
                       : "choose a coordinate from 0 to " + std::to_string(count - 1));
+  }
+
+  void check_points() {
+    for (std::size_t i = 0; i < linkage_.points.size(); ++i) {
+      const ChosenPoint& point = linkage_.points[i];
+      const std::string path = path_of("point", linkage_.points, i);
+      check_point(point, path, problems_);
+      if (is_body(point.link)) continue;
+      report_unknown_link(path + ".link", "point " + quoted(point.name), "link", point.link);
+    }
   }
 
   const Linkage& linkage_;

@@ -222,4 +222,10 @@ void check_load(const Load& load, const std::string& path, std::vector<Problem>&
     record.require_positive("course.duration", load.course.duration);
 }
 
+void check_point(const ChosenPoint& point, const std::string& path,
+                 std::vector<Problem>& problems) {
+  RecordCheck record{path, "point '" + point.name + "'", problems};
+  record.require_finite("position", point.position.allFinite());
+}
+
 }  // namespace linkstudy

@@ -23,5 +23,6 @@ void check_link(const Link& link, const std::string& path, std::vector<Problem>&
 void check_joint(const Joint& joint, const std::string& path, std::vector<Problem>& problems);
 void check_closure(const Closure& closure, const std::string& path, std::vector<Problem>& problems);
 void check_load(const Load& load, const std::string& path, std::vector<Problem>& problems);
+void check_point(const ChosenPoint& point, const std::string& path, std::vector<Problem>& problems);
 
 }  // namespace linkstudy

@@ -1,5 +1,5 @@
 // A linkage as its designer describes it: links, the joints of a spanning tree, the closures that
-// make loops, and loads. Plain records with names; no state and no algorithms.
+// make loops, loads, and points to watch. Plain records with names; no state and no algorithms.
 // Units: SI and radians. Frames: right-handed, fixed in the link that is named beside them.
 // Source: topologies of [AugUrb18] fig. 1; closures of [Urbas16] sec. 2-4.
 #pragma once
@@ -246,6 +246,13 @@ struct Load {
   ResistanceLaw law;          // resistance
 };
 
+// A point of a link whose motion is asked for; it takes no part in the dynamics.
+struct ChosenPoint {
+  std::string name;
+  std::string link;                                    // a link or kGround
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // in the link frame, m
+};
+
 struct Linkage {
   std::string name;
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  // m/s^2, ground frame
@@ -253,6 +260,7 @@ struct Linkage {
   std::vector<Joint> joints;
   std::vector<Closure> closures;
   std::vector<Load> loads;
+  std::vector<ChosenPoint> points;
 };
 
 }  // namespace linkstudy

@@ -51,6 +51,7 @@ bool can_share(const PreparedCase& a, const PreparedCase& b) {
   const Model& model_b = b.preparation.model;
   return same_steps(a.options, b.options) && model_a.start.t == model_b.start.t &&
          same_structure(model_a.mechanism, model_b.mechanism) &&
+         model_a.mechanism.point_bodies == model_b.mechanism.point_bodies &&
          same_form(a.metrics.observers(), b.metrics.observers());
 }
 

@@ -94,9 +94,10 @@ TEST(Check, Names_are_unique_legal_and_not_ground) {
   linkage.joints.push_back(make_joint("Z", "a", "9b"));
   linkage.joints[1].name = "A";
   linkage.loads = {make_drive("C"), make_drive("C")};
+  linkage.points.assign(2, {"tip", "a", Eigen::Vector3d::Zero()});
   EXPECT_THAT(paths(linkage),
               testing::UnorderedElementsAre("link.5.name", "link.6.name", "link.7.name",
-                                            "joint.1.name", "load.1.name"));
+                                            "joint.1.name", "load.1.name", "point.1.name"));
 }
 
 TEST(Check, Values_of_a_namesake_are_addressed_by_position) {
@@ -320,6 +321,18 @@ TEST(Check, Courses_and_laws_have_positive_durations_and_speeds) {
   linkage.loads[3].law.at_speed = 0.0;
   EXPECT_THAT(paths(linkage), ElementsAre("load.F0.course.duration", "load.F1.course.values",
                                           "load.F2.course.times.2", "load.F3.law.at_speed"));
+}
+
+TEST(Check, A_point_is_on_a_link_or_on_ground_at_a_finite_place) {
+  Linkage linkage = make_tree();
+  linkage.points.assign(4, {"", "a", Eigen::Vector3d::Ones()});
+  for (std::size_t i = 0; i < 4; ++i) linkage.points[i].name = "P" + std::to_string(i);
+  linkage.points[0].link = "ground";
+  linkage.points[1].link = "f";
+  linkage.points[2].position.y() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(paths(linkage), ElementsAre("point.P1.link", "point.P2.position"));
+  linkage.points.resize(2);
+  EXPECT_THAT(only_message(linkage), HasSubstr("point 'P1': link is not a link, got 'f'"));
 }
 
 }  // namespace
