@@ -4,6 +4,7 @@
 #include <charconv>
 
 #include "study/config/key.h"
+#include "study/config/read_value.h"
 
 namespace linkstudy {
 namespace {
@@ -84,6 +85,17 @@ std::optional<std::string> unit_of_load(const Tree& model, const std::vector<std
   return speed == "rad/s" ? "N m" : "N";
 }
 
+// "kinematics.drive.0.to"
+std::optional<std::string> unit_of_drive(const Tree& model, const std::vector<std::string>& parts) {
+  const Tree* kinematics = model.find("kinematics");
+  const Tree* drives = kinematics != nullptr ? kinematics->find("drive") : nullptr;
+  if (drives == nullptr || parts.size() < 4) return std::nullopt;
+  const std::size_t index = last_index({parts[2]});
+  if (index >= drives->items.size()) return std::nullopt;
+  const Tree& drive = drives->items[index];
+  return position_unit(model, word_of(drive, "joint"), integer_of(drive, "coordinate", 0));
+}
+
 }  // namespace
 
 std::optional<std::size_t> word_index(const std::vector<std::string>& words,
@@ -123,6 +135,17 @@ std::vector<std::string> position_units(const JointKind& kind) {
   return units;
 }
 
+std::optional<std::string> position_unit(const Tree& model, const std::string& joint,
+                                         std::int64_t coordinate) {
+  const Tree* record = find_named(model, "joint", joint);
+  if (record == nullptr || coordinate < 0) return std::nullopt;
+  const JointKind kind = joint_kind_of(*record);
+  const std::vector<std::string> units = position_units(kind);
+  const auto index = static_cast<std::size_t>(coordinate);
+  if (!kind.is_known || index >= units.size()) return std::nullopt;
+  return units[index];
+}
+
 std::vector<std::string> velocity_units(const JointKind& kind) {
   std::vector<std::string> units;
   for (const char motion : motions(kind.type)) units.push_back(motion == 'r' ? "rad/s" : "m/s");
@@ -155,6 +178,7 @@ std::optional<std::string> unit_of_path(const Tree& model, const std::string& un
   if (unit.find('|') == std::string::npos) return unit;
   const std::vector<std::string> parts = split_path(path);
   if (parts.size() < 3) return std::nullopt;
+  if (parts[0] == "kinematics") return unit_of_drive(model, parts);
   return parts[0] == "joint" ? unit_of_coordinate(model, parts) : unit_of_load(model, parts);
 }
 

@@ -1,5 +1,5 @@
-// Units that depend on a neighbour: coordinates and springs follow the joint's type, loads on a
-// joint follow the coordinate they act on.
+// Units that depend on a neighbour: coordinates and springs follow the joint's type, loads and
+// drives on a joint follow the coordinate they act on.
 #pragma once
 
 #include <optional>
@@ -29,6 +29,11 @@ JointKind joint_kind_of(const Tree& joint);
 // One unit for each coordinate: "rad", "m" or "1" (quaternion); "rad/s" or "m/s".
 std::vector<std::string> position_units(const JointKind& kind);
 std::vector<std::string> velocity_units(const JointKind& kind);
+
+// Unit of one position coordinate of a joint of the model, "rad", "m" or "1"; nothing when there is
+// no such joint or coordinate.
+std::optional<std::string> position_unit(const Tree& model, const std::string& joint,
+                                         std::int64_t coordinate);
 
 // Units of the arrays of a joint by the name of the array: position and velocity as above, and
 // stiffness, damping, rest of its spring.

@@ -275,6 +275,25 @@ void add_load_rows(Rows& rows) {
   add_law_rows(rows);
 }
 
+void add_point_rows(Rows& rows) {
+  rows.push_back({.path = "point",
+                  .type = tables,
+                  .meaning = "points to watch, channels point.NAME.position, velocity, "
+                             "acceleration; of no effect on the motion"});
+  rows.push_back(
+      {.path = "point.*.name", .type = name, .meaning = "name of the point", .required = true});
+  rows.push_back({.path = "point.*.link",
+                  .type = name,
+                  .meaning = "link it moves with, or ground",
+                  .required = true});
+  rows.push_back({.path = "point.*.position",
+                  .type = numbers,
+                  .meaning = "place in the link frame",
+                  .unit = "m",
+                  .standard = "[0.0, 0.0, 0.0]",
+                  .counts = {3}});
+}
+
 void add_tolerance_rows(Rows& rows) {
   const std::string tolerance = "simulation.tolerance";
   const auto add = [&](const char* key, const char* meaning, const char* standard) {
@@ -367,7 +386,9 @@ const std::vector<KeyRow>& model_rows() {
     add_joint_rows(all);
     add_closure_rows(all);
     add_load_rows(all);
+    add_point_rows(all);
     add_simulation_rows(all);
+    add_kinematics_rows(all);
     return all;
   }();
   return rows;

@@ -20,6 +20,7 @@ void add_flexible_rows(std::vector<KeyRow>& rows);
 void add_friction_rows(std::vector<KeyRow>& rows, const std::string& path);
 
 void add_clearance_rows(std::vector<KeyRow>& rows);
+void add_kinematics_rows(std::vector<KeyRow>& rows);
 void add_closure_rows(std::vector<KeyRow>& rows);
 
 }  // namespace linkstudy

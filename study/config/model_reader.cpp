@@ -11,6 +11,7 @@
 #include "study/config/joint_reader.h"
 #include "study/config/joint_units.h"
 #include "study/config/key.h"
+#include "study/config/kinematics_reader.h"
 #include "study/config/load_reader.h"
 #include "study/config/read_value.h"
 #include "study/config/sde_reader.h"
@@ -54,6 +55,11 @@ Link read_link(Tree& tree, Diagnostics& diagnostics) {
   return link;
 }
 
+ChosenPoint read_point(const Tree& tree) {
+  return {word_of(tree, "name"), word_of(tree, "link"),
+          read_vector(tree.find("position"), Vector3d::Zero())};
+}
+
 class ModelReader {
  public:
   ModelReader(Tree& model, Diagnostics& diagnostics) : model_(model), diagnostics_(diagnostics) {}
@@ -68,6 +74,7 @@ class ModelReader {
     for_each("closure", [&](Tree& tree) { linkage.closures.push_back(read_closure(tree)); });
     for_each("load",
              [&](Tree& tree) { linkage.loads.push_back(read_load(tree, model_, diagnostics_)); });
+    for_each("point", [&](Tree& tree) { linkage.points.push_back(read_point(tree)); });
     return linkage;
   }
 
@@ -221,6 +228,7 @@ ModelInput read_model(Tree model, Diagnostics& diagnostics) {
   ModelInput input;
   input.linkage = ModelReader(model, diagnostics).read();
   input.options = read_options(model, diagnostics);
+  input.kinematics = read_kinematics(model, diagnostics);
   input.name = input.linkage.name;
   check_structure(input.linkage, model, diagnostics);
   input.resolved = std::move(model);

@@ -1,8 +1,10 @@
 // A validated model tree as a Linkage and the options of a run. Judges what needs more than one
-// key: rotations, units that follow the joint type, stiffness by direction, loads that fit their
-// coordinate; then the checks of core/topology, their paths turned into places in the file.
+// key: rotations, units that follow the joint type, stiffness by direction, loads and drives that
+// fit their coordinate; then the checks of core/topology, their paths turned into places in the
+// file.
 #pragma once
 
+#include "core/kinematics/drive_course.h"
 #include "core/simulation/options.h"
 #include "core/topology/linkage.h"
 #include "study/config/tree.h"
@@ -13,6 +15,7 @@ struct ModelInput {
   Linkage linkage;
   Linkage rigid;  // with every flexible link as one rigid link
   SimulationOptions options;
+  KinematicsOptions kinematics;
   std::string name;
   Tree resolved;  // every default and override filled in: the text of resolved.toml
 };

@@ -1,65 +1,15 @@
-// Damaged inputs: each gives exactly one error, at the marked place. In the replacement text @
-// marks the place; it is removed before reading, its line and column are the expected ones.
-#include <gmock/gmock.h>
+// Damaged models: see wrong_text.h.
 #include <gtest/gtest.h>
 
-#include <ostream>
-
 #include "config_text.h"
+#include "wrong_text.h"
 
 namespace linkstudy {
 namespace {
 
+using test::expect_one_error;
 using test::kRsrrp;
-using test::read_text;
-using test::replaced;
-using testing::HasSubstr;
-
-struct Marked {
-  std::string text;
-  int line = 1;
-  int column = 1;
-};
-
-Marked without_mark(const std::string& text) {
-  const std::size_t at = text.find('@');
-  if (at == std::string::npos || text.find('@', at + 1) != std::string::npos) {
-    throw std::logic_error("test text: one mark is needed: " + text);
-  }
-  Marked marked{text, 1, 1};
-  for (std::size_t i = 0; i < at; ++i) {
-    marked.column = text[i] == '\n' ? 1 : marked.column + 1;
-    marked.line += text[i] == '\n' ? 1 : 0;
-  }
-  marked.text.erase(at, 1);
-  return marked;
-}
-
-struct Wrong {
-  const char* what;
-  const char* from;  // replaced in the reference linkage ...
-  const char* to;    // ... by this
-  const char* message;
-  const char* remedy = "";
-};
-
-void PrintTo(const Wrong& wrong, std::ostream* out) {
-  *out << wrong.what;
-}
-
-void expect_one_error(const std::string& right, const Wrong& wrong) {
-  const Marked marked = without_mark(replaced(right, wrong.from, wrong.to));
-  Diagnostics diagnostics;
-  EXPECT_FALSE(read_text(marked.text, diagnostics));
-  const std::vector<Diagnostic> found = diagnostics.sorted();
-  ASSERT_EQ(found.size(), 1u) << to_string(diagnostics);
-  EXPECT_EQ(found[0].line, marked.line) << to_string(diagnostics);
-  EXPECT_EQ(found[0].column, marked.column) << to_string(diagnostics);
-  EXPECT_THAT(found[0].message, HasSubstr(wrong.message));
-  EXPECT_THAT(found[0].remedy, HasSubstr(wrong.remedy));
-  EXPECT_FALSE(found[0].remedy.empty());
-  EXPECT_EQ(found[0].file, "model.toml");
-}
+using test::Wrong;
 
 class WrongModel : public testing::TestWithParam<Wrong> {};
 
@@ -359,6 +309,21 @@ const Wrong kStructure[] = {
      "[[load]]\nname = \"push\"\ntype = \"link_torque\"\nlink = @\"ground\"\ndirection = [1, 0, "
      "0]\ncourse = { shape = \"constant\", value = 1 }\n[simulation]",
      "load 'push': link is not a moving link, got 'ground'"},
+    {"point_on_no_link", "[simulation]",
+     "[[point]]\nname = \"tip\"\nlink = @\"couplr\"\n[simulation]",
+     "point 'tip': link is not a link, got 'couplr'", "did you mean 'coupler'?"},
+    {"duplicate_point", "[simulation]",
+     "[[point]]\nname = \"tip\"\nlink = \"yoke\"\n[[point]]\nname = @\"tip\"\nlink = "
+     "\"crank\"\n[simulation]",
+     "point: the name 'tip' is used twice"},
+    {"point_without_link", "[simulation]", "@[[point]]\nname = \"tip\"\n[simulation]",
+     "point 'tip': link is missing"},
+    {"point_in_degrees", "[simulation]",
+     "[[point]]\nname = \"tip\"\nlink = \"yoke\"\nposition = [0, @\"3 deg\", 0]\n[simulation]",
+     "point 'tip': position.1 must be an array of numbers in m, got '3 deg'"},
+    {"flat_point", "[simulation]",
+     "[[point]]\nname = \"tip\"\nlink = \"yoke\"\nposition = @[0, 1]\n[simulation]",
+     "point 'tip': position must have 3 entries, got 2"},
     {"no_such_coordinate", "type = \"torque\"\njoint = \"A\"",
      "type = \"torque\"\njoint = \"A\"\ncoordinate = @1",
      "joint 'A' has 1 coordinates, counted from 0, got 1"},
