@@ -93,7 +93,7 @@ class Packed {
 
   KernelRun setting_of(const SimulationOptions& options, Watch& watch) const {
     const StepGrid grid = make_step_grid(options);
-    const long stride = std::max(1L, std::lround(options.output_interval / grid.h));
+    const long stride = sample_output(grid, options.output_interval).stride;
     return {cases_[0].start->t,  grid.h,      grid.count, stride,
             options.drift_limit, Watch::poll, &watch};
   }
@@ -189,6 +189,10 @@ StepGrid make_step_grid(const SimulationOptions& options) {
   const double ratio = options.end_time / options.step;
   const long count = std::max(1L, static_cast<long>(std::ceil(ratio * (1.0 - 1e-12))));
   return {count, options.end_time / static_cast<double>(count)};
+}
+
+Sampling sample_output(const StepGrid& grid, double output_interval) {
+  return {0, grid.count, std::max(1L, std::lround(output_interval / grid.h))};
 }
 
 SimulationOutcome simulate(const Mechanism& mechanism, const Parameters<double>& parameters,

@@ -23,6 +23,9 @@ struct StepGrid {
 };
 StepGrid make_step_grid(const SimulationOptions& options);
 
+// The instants of a grid that are an output interval apart, in whole steps.
+Sampling sample_output(const StepGrid& grid, double output_interval);
+
 struct RunLimits {
   double timeout_s = 0.0;                        // wall time of the run, 0: none
   const std::atomic<bool>* cancelled = nullptr;  // checked now and then

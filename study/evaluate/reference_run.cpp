@@ -63,9 +63,7 @@ Observers make_observers(const StudySignals& signals, const std::vector<Channel>
   for (const std::vector<Channel>& channels : signals.match) {
     observers.series.push_back({channels, {0, grid.count, 1}, {}});
   }
-  Series histories{signals.trace, sample_output(grid, output_interval), {}};
-  histories.channels.insert(histories.channels.begin(), time_channel());
-  observers.series.push_back(std::move(histories));
+  observers.series.push_back(make_histories(signals.trace, grid, output_interval));
   const long stride = std::max(1L, grid.count / kReferencePoses);
   observers.series.push_back({coordinate_channels(all), {0, grid.count, stride}, {}});
   return observers;

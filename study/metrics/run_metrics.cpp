@@ -37,8 +37,11 @@ Channel time_channel() {
   return {"time", "s", Quantity::time, 0, 0};
 }
 
-Sampling sample_output(const StepGrid& grid, double output_interval) {
-  return {0, grid.count, std::max(1L, std::lround(output_interval / grid.h))};
+Series make_histories(const std::vector<Channel>& channels, const StepGrid& grid,
+                      double output_interval) {
+  Series series{channels, sample_output(grid, output_interval), {}};
+  series.channels.insert(series.channels.begin(), time_channel());
+  return series;
 }
 
 RunMetrics::RunMetrics(const StudyInput& input, const StudySignals& signals,
@@ -54,11 +57,7 @@ RunMetrics::RunMetrics(const StudyInput& input, const StudySignals& signals,
   add_responses(input, signals);
   if (signals.trace.empty()) return;
   has_traces_ = true;
-  Series series;
-  series.channels = signals.trace;
-  series.channels.insert(series.channels.begin(), time_channel());
-  series.sampling = sample_output(grid_, options.output_interval);
-  observers_.series.push_back(std::move(series));
+  observers_.series.push_back(make_histories(signals.trace, grid_, options.output_interval));
 }
 
 std::shared_ptr<const RunMetrics::Compared> RunMetrics::compare(const StudyInput& input,

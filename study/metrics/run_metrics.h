@@ -54,8 +54,9 @@ class RunMetrics {
   bool has_traces_ = false;
 };
 
-// Sampling of histories: every output interval, in whole steps.
-Sampling sample_output(const StepGrid& grid, double output_interval);
+// Histories of `channels` at every output interval, time first.
+Series make_histories(const std::vector<Channel>& channels, const StepGrid& grid,
+                      double output_interval);
 
 // A series as histories; `channels` start with time.
 std::vector<Trace> to_traces(const Series& series);
