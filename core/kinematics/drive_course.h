@@ -19,7 +19,8 @@ struct DriveCourse {
   std::string joint;
   int coordinate = 0;          // within the joint
   std::optional<double> from;  // empty: where the linkage stands
-  std::optional<double> to;    // empty: a full turn, or a tenth of the linkage's extent
+  // Empty: of a single drive a full turn, or a tenth of the linkage's extent; one of several rests.
+  std::optional<double> to;
   MotionLaw law = MotionLaw::linear;
   std::vector<double> times;      // table: rising, the first is 0
   std::vector<double> positions;  // table: as many
@@ -27,7 +28,8 @@ struct DriveCourse {
 
 struct KinematicsOptions {
   std::vector<DriveCourse> drives;
-  // Empty: the last time of a table; else what the first drive needs at 1 rad/s or 1 m/s.
+  // Empty: the last time of a table; else what the longest way takes at 1 rad/s, or at 1 m/s where
+  // no drive turns.
   std::optional<double> duration;
   int positions = 73;  // evenly spaced in time, both ends included
 };

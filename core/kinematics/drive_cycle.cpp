@@ -9,20 +9,42 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double kLongestStep = 0.03;    // norm of h t, rad and extents
-constexpr double kShortestStep = 1e-12;  // of theta
+constexpr double kLongestStep = 0.03;    // norm of the rates over a step, rad and extents
+constexpr double kShortestStep = 1e-12;  // of the drives, rad and extents
 constexpr double kCorrected = 0.2;       // largest correction, relative to the step
-constexpr double kTurned = 0.3;          // largest change of t against its prediction, relative
-constexpr double kRunaway = 300.0;       // norm of t where a stuck drive is locked
-constexpr double kSuspect = 0.1;         // quality below which a minimum is looked into
-constexpr double kCrossing = 1e-5;       // quality of a minimum that counts as zero
-constexpr double kSamePosition = 1e-6;   // of theta
+constexpr double kTurned = 0.3;          // largest change of the rates against their prediction
+constexpr double kRunaway = 300.0;  // of dependent to driven rates where a stuck drive is locked
+constexpr double kSuspect = 0.1;    // quality below which a minimum is looked into
+constexpr double kCrossing = 1e-5;  // quality of a minimum that counts as zero
+constexpr double kSamePosition = 1e-6;  // of the drives, rad and extents
 constexpr double kGolden = 0.6180339887498949;
 
-// Quintic that meets positions 0 and d and the rates and second rates of both ends; 0 <= x <= 1.
-VectorXd interpolate(const DrivenPose& a, const DrivenPose& b, const VectorXd& d, double x) {
-  const double h = b.theta - a.theta;
-  const VectorXd v0 = h * a.t, v1 = h * b.t, c0 = 0.5 * h * h * a.c, c1 = 0.5 * h * h * b.c;
+// A closed pose on the course. `continued` are the rates there if the pose is singular.
+struct Place {
+  double time;
+  State<double> s;
+  double quality;
+  bool is_singular;
+  DrivenRates continued;
+};
+
+// Rates for other rates of the drives, as far as these have the direction of the given ones.
+DrivenRates rescaled(const DrivenRates& r, const VectorXd& rate, const VectorXd& second_rate) {
+  const double square = std::max(r.drive.squaredNorm(), 1e-300);
+  const double first = rate.dot(r.drive) / square, second = second_rate.dot(r.drive) / square;
+  DrivenRates scaled = r;
+  scaled.drive = rate;
+  scaled.first = first * r.first;
+  scaled.second = first * first * r.second + second * r.first;
+  return scaled;
+}
+
+// Quintic that meets positions 0 and d and the rates and second rates of both ends, h apart;
+// 0 <= x <= 1.
+VectorXd interpolate(const DrivenRates& a, const DrivenRates& b, const VectorXd& d, double h,
+                     double x) {
+  const VectorXd v0 = h * a.first, v1 = h * b.first;
+  const VectorXd c0 = 0.5 * h * h * a.second, c1 = 0.5 * h * h * b.second;
   const VectorXd e = d - v0 - c0;
   const VectorXd f = v1 - v0 - 2.0 * c0;
   const VectorXd g = c1 - c0;
@@ -34,21 +56,22 @@ VectorXd interpolate(const DrivenPose& a, const DrivenPose& b, const VectorXd& d
 
 class Follower {
  public:
-  Follower(const DrivenLinkage& linkage, std::vector<SingularPosition>& singular)
-      : linkage_(linkage), singular_(singular) {}
+  Follower(const DrivenLinkage& linkage, const DrivePath& path,
+           std::vector<SingularPosition>& singular)
+      : linkage_(linkage), path_(path), singular_(singular) {}
 
-  void begin(const DrivenPose& start) {
+  void begin(const Place& start) {
     track_ = {start};
     stride_ = kLongestStep;
-    if (start.is_singular) note(SingularKind::branch, start.theta, start.s, start.quality);
+    if (start.is_singular) note(SingularKind::branch, start.time, start.s);
   }
-  const DrivenPose& pose() const { return track_.back(); }
+  const Place& place() const { return track_.back(); }
 
-  // False if the drive is locked before `target`.
+  // False if the drives are locked before `target`.
   bool advance(double target) {
-    while (std::abs(target - pose().theta) > kSamePosition * 1e-3) {
+    while (place().time != target) {
       if (!step_towards(target) && !jump_towards(target)) {
-        note(SingularKind::lock, pose().theta, pose().s, pose().quality);
+        note_lock(target);
         return false;
       }
     }
@@ -57,63 +80,112 @@ class Follower {
 
   // A pose that ends the course counts as singular without a step beyond it.
   void end() {
-    if (pose().is_singular) note(SingularKind::branch, pose().theta, pose().s, pose().quality);
+    if (place().is_singular) note(SingularKind::branch, place().time, place().s);
+  }
+
+  DrivenPose pose() const {
+    const DriveMotion motion = path_.at(place().time);
+    const DrivenRates r = rates_at(place());
+    const VectorXd v = linkage_.scale().velocity.cwiseProduct(r.first);
+    const VectorXd a = linkage_.scale().velocity.cwiseProduct(r.second);
+    DrivenPose pose{place().time,         place().s,       motion.position,
+                    {a.begin(), a.end()}, place().quality, linkage_.residual(place().s),
+                    place().is_singular};
+    pose.s.v.assign(v.begin(), v.end());
+    return pose;
   }
 
  private:
-  std::optional<DrivenPose> try_step(double h) const {
-    const DrivenPose& a = pose();
-    const VectorXd dy = h * a.t + 0.5 * h * h * a.c;
-    const State<double> predicted = linkage_.moved(a.s, dy, a.theta + h);
+  struct Step {
+    double h;            // s
+    DrivenRates motion;  // over a unit of time, to the drives' next place
+  };
+
+  // What the drives do between now and now + h, straight.
+  DrivenRates motion_over(double h) const {
+    const Place& a = place();
+    const VectorXd delta =
+        linkage_.without_dimensions(path_.position(a.time + h) - path_.position(a.time));
+    const VectorXd none = VectorXd::Zero(delta.size());
+    return a.is_singular ? rescaled(a.continued, delta, none) : linkage_.rates(a.s, delta, none);
+  }
+
+  // The step towards `target` over which the rates have this norm at most.
+  Step choose_step(double length, double target) const {
+    const double left = target - place().time;
+    double h = std::copysign(std::min(std::abs(left), path_.longest_step()), left);
+    for (;;) {
+      Step step{h, motion_over(h)};
+      const double norm = step.motion.first.norm();
+      if (!(norm > length * (1.0 + 1e-9))) return step;
+      h *= std::max(length / norm, 0.01);
+    }
+  }
+
+  std::optional<Place> try_step(const Step& step) const {
+    const Place& a = place();
+    const DrivenRates& r = step.motion;
+    const double time = a.time + step.h;
+    const State<double> predicted =
+        linkage_.moved(a.s, r.first + 0.5 * r.second, path_.position(time));
     State<double> s = predicted;
     if (!linkage_.close(s)) return std::nullopt;
     const Mechanism& m = linkage_.model().mechanism;
     const double correction = scaled_difference(m, linkage_.scale(), predicted, s).norm();
-    if (correction > kCorrected * (h * a.t).norm()) return std::nullopt;
-    DrivenPose b = linkage_.evaluate(s);
-    const VectorXd expected = a.t + h * a.c;
+    if (correction > kCorrected * r.first.norm()) return std::nullopt;
+    const DrivenRates b = linkage_.rates(s, r.drive, VectorXd::Zero(r.drive.size()));
+    const VectorXd expected = r.first + r.second;
     if (b.is_singular) {
-      b.t = expected;
-      b.c = a.c;
-      return b;
+      return Place{time, s, b.quality, true, {r.drive, expected, r.second}};
     }
-    const bool turns_off = (b.t - expected).norm() > kTurned * std::max(a.t.norm(), b.t.norm());
-    return turns_off && !is_lax(a) ? std::nullopt : std::optional(b);
+    const double larger = std::max(r.first.norm(), b.first.norm());
+    const bool turns_off = (b.first - expected).norm() > kTurned * larger;
+    if (turns_off && !is_lax(a)) return std::nullopt;
+    return Place{time, s, b.quality, false, {}};
   }
 
   // After a pose whose rates are only continued, those that follow may differ a little more.
-  static bool is_lax(const DrivenPose& a) { return a.is_singular && a.c.isZero(); }
+  static bool is_lax(const Place& a) { return a.is_singular && a.continued.second.isZero(); }
 
   bool step_towards(double target) {
-    const double sense = target > pose().theta ? 1.0 : -1.0;
     for (double length = stride_;; length *= 0.5) {
-      const double left = std::abs(target - pose().theta);
-      const double h = std::min(left, length / pose().t.norm());
-      if (h < kShortestStep) return false;
-      std::optional<DrivenPose> next = try_step(sense * h);
+      const Step step = choose_step(length, target);
+      if (step.motion.drive.norm() < kShortestStep) return rest(step, target);
+      std::optional<Place> next = try_step(step);
       if (!next) continue;
       stride_ = std::min(kLongestStep, 2.0 * length);
-      if (h == left) next->theta = target;
-      add(std::move(*next));
+      add(std::move(*next), step, target);
       return true;
     }
+  }
+
+  // A course that stands still for a while; false where steps have become too short.
+  bool rest(const Step& step, double target) {
+    const bool is_whole =
+        step.h == target - place().time || std::abs(step.h) == path_.longest_step();
+    if (!is_whole) return false;
+    track_.back().time = place().time + step.h;
+    if (step.h == target - place().time) track_.back().time = target;
+    return true;
   }
 
   // Over a crossing of branches that stops small steps.
   bool jump_towards(double target) {
     stride_ = kLongestStep;
-    if (pose().t.norm() > kRunaway) return false;
+    const Step least = choose_step(0.01, target);
+    if (least.motion.first.norm() > kRunaway * least.motion.drive.norm()) return false;
     for (const double length : {0.01, 0.02, 0.05}) {
-      const double h = std::min(std::abs(target - pose().theta), length / pose().t.norm());
-      std::optional<DrivenPose> next = try_step(target > pose().theta ? h : -h);
+      const Step step = choose_step(length, target);
+      std::optional<Place> next = try_step(step);
       if (!next || next->is_singular) continue;
-      add(std::move(*next));
+      add(std::move(*next), step, target);
       return true;
     }
     return false;
   }
 
-  void add(DrivenPose next) {
+  void add(Place next, const Step& step, double target) {
+    if (step.h == target - place().time) next.time = target;
     track_.push_back(std::move(next));
     if (track_.size() < 3) return;
     if (track_.size() > 3) track_.erase(track_.begin());
@@ -122,15 +194,23 @@ class Follower {
     if (is_lowest && track_[1].quality < kSuspect) look_between(track_[0], track_[2]);
   }
 
-  State<double> between(const DrivenPose& a, const DrivenPose& b, double x) const {
-    const Mechanism& m = linkage_.model().mechanism;
-    const VectorXd d = scaled_difference(m, linkage_.scale(), a.s, b.s);
-    return linkage_.moved(a.s, interpolate(a, b, d, x), a.theta + x * (b.theta - a.theta));
+  DrivenRates rates_at(const Place& a) const {
+    const DriveMotion motion = path_.at(a.time);
+    const VectorXd rate = linkage_.without_dimensions(motion.rate);
+    const VectorXd second = linkage_.without_dimensions(motion.second_rate);
+    return a.is_singular ? rescaled(a.continued, rate, second) : linkage_.rates(a.s, rate, second);
   }
 
   // Golden section for the lowest quality between two poses.
-  void look_between(const DrivenPose& a, const DrivenPose& b) {
-    const auto quality = [&](double x) { return linkage_.evaluate(between(a, b, x)).quality; };
+  void look_between(const Place& a, const Place& b) {
+    const Mechanism& m = linkage_.model().mechanism;
+    const DrivenRates at_a = rates_at(a), at_b = rates_at(b);
+    const VectorXd d = scaled_difference(m, linkage_.scale(), a.s, b.s);
+    const double h = b.time - a.time;
+    const auto between = [&](double x) {
+      return linkage_.moved(a.s, interpolate(at_a, at_b, d, h, x), path_.position(a.time + x * h));
+    };
+    const auto quality = [&](double x) { return linkage_.quality(between(x)); };
     double low = 0.0, high = 1.0;
     double x1 = high - kGolden * (high - low), x2 = low + kGolden * (high - low);
     double f1 = quality(x1), f2 = quality(x2);
@@ -145,42 +225,69 @@ class Follower {
         f2 = quality(x2);
       }
     }
-    const double lowest = std::min(f1, f2);
-    if (lowest > kCrossing) return;
     const double x = f1 < f2 ? x1 : x2;
-    note(SingularKind::branch, a.theta + x * (b.theta - a.theta), between(a, b, x), lowest);
+    if (std::min(f1, f2) < kCrossing) note(SingularKind::branch, a.time + x * h, between(x));
   }
 
-  void note(SingularKind kind, double theta, const State<double>& s, double quality) {
-    const double drive = linkage_.coordinate(theta);
-    const bool is_known = std::any_of(singular_.begin(), singular_.end(), [&](const auto& known) {
-      return std::abs(linkage_.theta(known.drive) - theta) < kSamePosition;
-    });
-    if (!is_known) singular_.push_back({kind, drive, quality, linkage_.loose_joints(s)});
+  void note_lock(double target) {
+    const DriveMotion motion = path_.at(place().time);
+    VectorXd direction = linkage_.without_dimensions(motion.rate);
+    if (direction.isZero()) {
+      direction = linkage_.without_dimensions(path_.position(target) - motion.position);
+    }
+    if (target < place().time) direction = -direction;
+    const auto turning = find_turning_pose(linkage_, place().s, direction.normalized());
+    note(SingularKind::lock, place().time, turning.value_or(place().s));
+  }
+
+  void note(SingularKind kind, double time, const State<double>& s) {
+    SingularPosition p = describe_singular(linkage_, kind, time, s);
+    const auto is_same = [&](const SingularPosition& known) {
+      return linkage_.without_dimensions(known.drive - p.drive).norm() < kSamePosition;
+    };
+    if (std::none_of(singular_.begin(), singular_.end(), is_same)) {
+      singular_.push_back(std::move(p));
+    }
   }
 
   const DrivenLinkage& linkage_;
+  const DrivePath& path_;
   std::vector<SingularPosition>& singular_;
-  std::vector<DrivenPose> track_;  // the last three
-  double stride_ = kLongestStep;   // norm of the next h t
+  std::vector<Place> track_;      // the last three
+  double stride_ = kLongestStep;  // norm of the rates over the next step
 };
 
-// At a singular start the linear solves do not tell the motion; the neighbour that turns the drive
-// most does.
-void continue_from_neighbours(const DrivenLinkage& linkage, const MobilityReport& mobility,
-                              DrivenPose& start) {
+// At a singular start the linear solves do not tell the motion; the neighbour that moves the drives
+// most along `direction` does.
+DrivenRates continue_from_neighbours(const DrivenLinkage& linkage, const MobilityReport& mobility,
+                                     const State<double>& start, const VectorXd& direction) {
+  DrivenRates rates = linkage.rates(start, direction, VectorXd::Zero(direction.size()));
   double best = 0.0;
   for (const State<double>& s : mobility.neighbours) {
-    const VectorXd d = scaled_difference(linkage.model().mechanism, linkage.scale(), start.s, s);
-    const double driven = d[linkage.drive().velocity];
-    if (std::abs(driven) <= best * d.norm()) continue;
-    best = std::abs(driven) / d.norm();
-    start.t = d / driven;
-    start.c.setZero();
+    const VectorXd d = scaled_difference(linkage.model().mechanism, linkage.scale(), start, s);
+    const VectorXd driven =
+        linkage.without_dimensions(linkage.drive_position(s) - linkage.drive_position(start));
+    const double along = driven.dot(direction) / direction.norm();
+    if (std::abs(along) <= best * d.norm()) continue;
+    best = std::abs(along) / d.norm();
+    rates.first = d * (direction.norm() / along);
+    rates.second.setZero();
   }
+  return rates;
 }
 
-// Poses at from, from + step, ... as far as they can be reached, at most `count`.
+Place place_at(const DrivenLinkage& linkage, const State<double>& start,
+               const MobilityReport& mobility, const DrivePath& path) {
+  VectorXd direction =
+      linkage.without_dimensions(path.position(path.duration()) - path.position(0.0));
+  if (direction.isZero()) direction = linkage.without_dimensions(path.at(0.0).rate);
+  if (direction.isZero()) direction.setOnes();
+  const double quality = linkage.quality(start);
+  if (quality >= kSingularQuality) return {0.0, start, quality, false, {}};
+  return {0.0, start, quality, true, continue_from_neighbours(linkage, mobility, start, direction)};
+}
+
+// Poses at times from, from + step, ... as far as they can be reached, at most `count`.
 std::vector<DrivenPose> visit(Follower& follower, double from, double step, int count) {
   std::vector<DrivenPose> poses;
   for (int i = 0; i < count && follower.advance(from + i * step); ++i) {
@@ -190,28 +297,43 @@ std::vector<DrivenPose> visit(Follower& follower, double from, double step, int 
   return poses;
 }
 
+// The begin of the course, reached straight from the start.
+std::optional<Place> go_to_begin(const DrivenLinkage& linkage, const State<double>& start,
+                                 const MobilityReport& mobility, const DrivePath& path,
+                                 std::vector<SingularPosition>& singular) {
+  const VectorXd from = linkage.drive_position(start), to = path.position(0.0);
+  if (linkage.without_dimensions(to - from).norm() < kShortestStep) {
+    return place_at(linkage, linkage.moved(start, VectorXd::Zero(start.v.size()), to), mobility,
+                    path);
+  }
+  const DrivePath way = DrivePath::straight(from, to);
+  Follower follower(linkage, way, singular);
+  follower.begin(place_at(linkage, start, mobility, way));
+  if (!follower.advance(way.duration())) return std::nullopt;
+  Place place = follower.place();
+  place.time = 0.0;
+  return place;
+}
+
 }  // namespace
 
-DriveCycle follow_drive(const DrivenLinkage& linkage, const State<double>& start,
-                        const MobilityReport& mobility, const CourseOptions& options) {
+DriveCycle follow_drives(const DrivenLinkage& linkage, const State<double>& start,
+                         const MobilityReport& mobility, const DrivePath& path,
+                         const CourseOptions& options) {
   DriveCycle cycle;
-  DrivenPose first = linkage.evaluate(start);
-  if (first.is_singular) continue_from_neighbours(linkage, mobility, first);
-  Follower follower(linkage, cycle.singular);
-  follower.begin(first);
-  const double from = linkage.theta(options.from);
-  cycle.is_reached = follower.advance(from);
-  if (!cycle.is_reached) return cycle;
-  const DrivenPose begin = follower.pose();
-  cycle.singular.clear();  // of the way to `from`
-  follower.begin(begin);
+  const std::optional<Place> begin = go_to_begin(linkage, start, mobility, path, cycle.singular);
+  cycle.is_reached = begin.has_value();
+  if (!begin) return cycle;
+  cycle.singular.clear();  // of the way to the begin
+  Follower follower(linkage, path, cycle.singular);
+  follower.begin(*begin);
   const int count = std::max(options.positions, 2);
-  const double step = (linkage.theta(options.to) - from) / (count - 1);
-  cycle.poses = visit(follower, from, step, count);
+  const double step = path.duration() / (count - 1);
+  cycle.poses = visit(follower, 0.0, step, count);
   cycle.is_complete = static_cast<int>(cycle.poses.size()) == count;
   if (cycle.is_complete || !options.both_ways) return cycle;
-  follower.begin(begin);
-  std::vector<DrivenPose> back = visit(follower, from - step, -step, count - 1);
+  follower.begin(*begin);
+  std::vector<DrivenPose> back = visit(follower, -step, -step, count - 1);
   std::reverse(back.begin(), back.end());
   cycle.poses.insert(cycle.poses.begin(), back.begin(), back.end());
   return cycle;

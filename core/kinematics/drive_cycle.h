@@ -1,44 +1,50 @@
-// A linkage along the course of its drive: continuation from the assembled start.
+// A linkage along the course of its drives: continuation from the assembled start.
 //
-// Each step predicts y + h t + h^2/2 c and corrects by Newton-Raphson; it is taken if the
-// correction is small and the new velocities continue the old ones, so that the branch of the start
-// is kept, and tried again at half the length otherwise. Where steps vanish while the velocities of
-// the dependent joints grow without bound the linkage is locked: the drive cannot go on. Where they
-// stay bounded, or where the transmission quality passes through zero between steps, other branches
-// cross: the singular position is found as the minimum of the quality on the interpolated motion.
+// Each step takes the drives straight to their place on the course at a later time. It predicts
+// y + y_dot + y_ddot / 2 (rates for a unit of time) and corrects by Newton-Raphson; it is taken if
+// the correction is small and the new rates continue the old ones, so that the branch of the start
+// is kept, and tried again at half the length otherwise. Where steps vanish while the rates of
+// the dependent joints grow without bound the linkage is locked: the drives cannot go on. Where
+// they stay bounded, or where the transmission quality passes through zero between steps, other
+// branches cross: the singular position is found as the minimum of the quality on the interpolated
+// motion.
 #pragma once
 
-#include <string>
 #include <vector>
 
-#include "core/kinematics/driven_motion.h"
+#include "core/kinematics/drive_path.h"
+#include "core/kinematics/singular_position.h"
 
 namespace linkstudy {
 
-enum class SingularKind { lock, branch };
-
-struct SingularPosition {
-  SingularKind kind = SingularKind::branch;
-  double drive = 0.0;               // driven coordinate, rad or m
-  double quality = 0.0;             // transmission quality there
-  std::vector<std::string> joints;  // that can move while the drive rests
+struct DrivenPose {
+  double time = 0.0;      // of the course, s
+  State<double> s;        // positions and velocities
+  Eigen::VectorXd drive;  // (n) driven coordinates, rad or m
+  std::vector<double> a;  // (nv) accelerations
+  double quality = 0.0;   // transmission quality
+  double residual = 0.0;  // norm of the scaled closure rows
+  // Velocities and accelerations are not determined by the drives but continued from poses before.
+  bool is_singular = false;
 };
 
 struct CourseOptions {
-  double from = 0.0, to = 0.0;  // driven coordinate, rad or m
-  int positions = 73;           // evenly spaced, both ends included; at least 2
-  // Where the way to `to` is locked, also go from `from` the other way until it is locked there.
+  int positions = 73;  // evenly spaced in time, both ends included; at least 2
+  // Where the way to the end is locked, also go from the begin the other way until it is locked
+  // there: back in time, on linear courses.
   bool both_ways = false;
 };
 
 struct DriveCycle {
-  std::vector<DrivenPose> poses;  // in the order from -> to, those that can be reached
+  std::vector<DrivenPose> poses;  // in the order of time, those that can be reached
   std::vector<SingularPosition> singular;
-  bool is_reached = false;  // `from`: without it there are no poses
+  bool is_reached = false;  // the begin of the course: without it there are no poses
   bool is_complete = false;
 };
 
-DriveCycle follow_drive(const DrivenLinkage& linkage, const State<double>& start,
-                        const MobilityReport& mobility, const CourseOptions& options);
+// The drives first go straight from `start` to the begin of the path.
+DriveCycle follow_drives(const DrivenLinkage& linkage, const State<double>& start,
+                         const MobilityReport& mobility, const DrivePath& path,
+                         const CourseOptions& options);
 
 }  // namespace linkstudy

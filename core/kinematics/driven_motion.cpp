@@ -44,48 +44,48 @@ std::vector<Drive> list_drives(const Mechanism& m) {
     for (int i = body.stage_begin; i < body.stage_end; ++i) {
       const Stage& stage = m.stages[static_cast<std::size_t>(i)];
       if (stage.motion == BasicMotion::ball) continue;
-      const std::string name = "joint." + m.joint_names[static_cast<std::size_t>(b)];
+      const std::string& joint = m.joint_names[static_cast<std::size_t>(b)];
+      const int coordinate = stage.v - body.v_begin;
       const auto kind = m.velocities[static_cast<std::size_t>(stage.v)].kind;
-      drives.push_back({numbered(name, stage.v - body.v_begin, body.v_count), stage.q, stage.v,
-                        kind != VelocityKind::translation});
+      drives.push_back({numbered("joint." + joint, coordinate, body.v_count), joint, coordinate,
+                        stage.q, stage.v, kind != VelocityKind::translation});
     }
   }
   return drives;
 }
 
 DrivenLinkage::DrivenLinkage(const Model& closed, const State<double>& pose,
-                             const MobilityReport& mobility, const Drive& drive)
-    : closed_(&closed), scale_(find_closure_scale(closed, pose)), drive_(drive) {
-  unit_ = scale_.velocity[drive.velocity];
+                             const MobilityReport& mobility, std::vector<Drive> drives)
+    : closed_(&closed), scale_(find_closure_scale(closed, pose)), drives_(std::move(drives)) {
+  for (const Drive& drive : drives_) driven_.push_back(drive.velocity);
   std::vector<const State<double>*> poses = {&pose};
   for (const State<double>& s : mobility.neighbours) poses.push_back(&s);
   choose_dependent(true);
-  if (find_rank(poses) || closed.held.empty()) return;
-  releases_holds_ = true;
+  if (find_rank(poses)) return;
+  releases_holds_ = !closed.held.empty();
   choose_dependent(false);
-  find_rank(poses);
+  is_overdriven_ = !find_rank(poses);
 }
 
 void DrivenLinkage::choose_dependent(bool keep_holds) {
-  const std::vector<int>& held = closed_->held;
+  const auto has = [](const std::vector<int>& list, int k) {
+    return std::find(list.begin(), list.end(), k) != list.end();
+  };
   dependent_.clear();
   for (int k = 0; k < closed_->mechanism.nv; ++k) {
-    const bool rests = keep_holds && std::find(held.begin(), held.end(), k) != held.end();
-    if (k != drive_.velocity && !rests) dependent_.push_back(k);
+    const bool rests = keep_holds && has(closed_->held, k);
+    if (!has(driven_, k) && !rests) dependent_.push_back(k);
   }
 }
 
 bool DrivenLinkage::find_rank(const std::vector<const State<double>*>& poses) {
-  std::vector<int> with_drive = dependent_;
-  with_drive.push_back(drive_.velocity);
   bool can_move = false;
   rank_ = -1;
   for (const State<double>* s : poses) {
-    const MatrixXd j = compute_scaled_closures(*closed_, scale_, *s).jacobian;
-    const int rank = numerical_rank(take_columns(j, dependent_), kMobilityTolerance).rank;
-    if (rank <= rank_) continue;
-    rank_ = rank;
-    can_move = numerical_rank(take_columns(j, with_drive), kMobilityTolerance).rank == rank;
+    const DriveRanks r = ranks(*s, kMobilityTolerance);
+    if (r.h <= rank_) continue;
+    rank_ = r.h;
+    can_move = r.h_r == r.h;
   }
   return can_move;
 }
@@ -94,62 +94,85 @@ MatrixXd DrivenLinkage::dependent_jacobian(const State<double>& s) const {
   return take_columns(compute_scaled_closures(*closed_, scale_, s).jacobian, dependent_);
 }
 
-State<double> DrivenLinkage::moved(const State<double>& s, const VectorXd& dy, double theta) const {
+DriveRanks DrivenLinkage::ranks(const State<double>& s, double tolerance) const {
+  std::vector<int> all = dependent_;
+  all.insert(all.end(), driven_.begin(), driven_.end());
+  const MatrixXd j = compute_scaled_closures(*closed_, scale_, s).jacobian;
+  const int z = static_cast<int>(dependent_.size());
+  return {z, numerical_rank(take_columns(j, dependent_), tolerance).rank,
+          numerical_rank(take_columns(j, all), tolerance).rank};
+}
+
+VectorXd DrivenLinkage::drive_position(const State<double>& s) const {
+  VectorXd position(static_cast<Eigen::Index>(drives_.size()));
+  for (std::size_t i = 0; i < drives_.size(); ++i) {
+    position[static_cast<Eigen::Index>(i)] = s.q[static_cast<std::size_t>(drives_[i].position)];
+  }
+  return position;
+}
+
+VectorXd DrivenLinkage::without_dimensions(const VectorXd& of_drives) const {
+  VectorXd x = of_drives;
+  for (std::size_t i = 0; i < driven_.size(); ++i) {
+    x[static_cast<Eigen::Index>(i)] /= scale_.velocity[driven_[i]];
+  }
+  return x;
+}
+
+VectorXd DrivenLinkage::scatter_drives(const VectorXd& of_drives) const {
+  return scatter_entries(of_drives, driven_, closed_->mechanism.nv);
+}
+
+State<double> DrivenLinkage::moved(const State<double>& s, const VectorXd& dy,
+                                   const VectorXd& drive_position) const {
   State<double> next = displaced(closed_->mechanism, s, scale_.velocity.cwiseProduct(dy));
-  next.q[static_cast<std::size_t>(drive_.position)] = coordinate(theta);
+  for (std::size_t i = 0; i < drives_.size(); ++i) {
+    next.q[static_cast<std::size_t>(drives_[i].position)] =
+        drive_position[static_cast<Eigen::Index>(i)];
+  }
   return next;
 }
 
 bool DrivenLinkage::close(State<double>& s) const {
   const Mechanism& m = closed_->mechanism;
-  double residual = compute_scaled_closures(*closed_, scale_, s).residual.norm();
   for (int i = 0; i < kMaxIterations && rank_ > 0; ++i) {
     const ScaledClosures c = compute_scaled_closures(*closed_, scale_, s);
     const VectorXd x =
         solve_within(decompose(take_columns(c.jacobian, dependent_)), rank_, -c.residual);
     if (!(x.norm() < kFarthest)) return false;
     s = displaced(m, s, scale_.velocity.cwiseProduct(scatter_entries(x, dependent_, m.nv)));
-    residual = compute_scaled_closures(*closed_, scale_, s).residual.norm();
-    if (residual < kResidual && x.norm() < kCorrection) return true;
+    if (x.norm() < kCorrection && residual(s) < kResidual) return true;
   }
-  return rank_ == 0 && residual < kResidual;
+  return rank_ == 0 && residual(s) < kResidual;
 }
 
-DrivenPose DrivenLinkage::evaluate(const State<double>& given) const {
+DrivenRates DrivenLinkage::rates(const State<double>& given, const VectorXd& rate,
+                                 const VectorXd& second_rate) const {
   const int nv = closed_->mechanism.nv;
-  DrivenPose pose{given, theta(given.q[static_cast<std::size_t>(drive_.position)]), {}, {}};
-  pose.t = pose.c = VectorXd::Zero(nv);
-  pose.t[drive_.velocity] = 1.0;
-  const ScaledClosures c = compute_scaled_closures(*closed_, scale_, pose.s);
-  pose.residual = c.residual.norm();
-  pose.quality = 1.0;
-  const auto set_rates = [&] {
-    for (int k = 0; k < nv; ++k) {
-      pose.s.v[static_cast<std::size_t>(k)] = scale_.velocity[k] * pose.t[k];
-    }
-  };
-  if (rank_ > 0) {
-    const Svd svd = decompose(take_columns(c.jacobian, dependent_));
-    pose.quality = svd.singularValues()[rank_ - 1] / svd.singularValues()[0];
-    pose.is_singular = pose.quality < kSingularQuality;
-    pose.t +=
-        scatter_entries(solve_within(svd, rank_, -c.jacobian.col(drive_.velocity)), dependent_, nv);
-    set_rates();
-    const VectorXd bias = compute_scaled_closures(*closed_, scale_, pose.s).bias;
-    pose.c = scatter_entries(solve_within(svd, rank_, -bias), dependent_, nv);
+  DrivenRates r{rate, scatter_drives(rate), scatter_drives(second_rate)};
+  if (rank_ == 0) return r;
+  State<double> s = given;
+  const MatrixXd j = compute_scaled_closures(*closed_, scale_, s).jacobian;
+  const Svd svd = decompose(take_columns(j, dependent_));
+  r.quality = svd.singularValues()[rank_ - 1] / svd.singularValues()[0];
+  r.is_singular = r.quality < kSingularQuality;
+  r.first += scatter_entries(solve_within(svd, rank_, -j * r.first), dependent_, nv);
+  for (int k = 0; k < nv; ++k) {
+    s.v[static_cast<std::size_t>(k)] = scale_.velocity[k] * r.first[k];
   }
-  set_rates();
-  return pose;
+  const VectorXd bias = compute_scaled_closures(*closed_, scale_, s).bias;
+  r.second += scatter_entries(solve_within(svd, rank_, -bias - j * r.second), dependent_, nv);
+  return r;
 }
 
-VectorXd DrivenLinkage::velocity(const DrivenPose& pose, double rate) const {
-  return scale_.velocity.cwiseProduct(pose.t * (rate / unit_));
+double DrivenLinkage::quality(const State<double>& s) const {
+  if (rank_ == 0) return 1.0;
+  const VectorXd sizes = Svd(dependent_jacobian(s)).singularValues();
+  return sizes[rank_ - 1] / sizes[0];
 }
 
-VectorXd DrivenLinkage::acceleration(const DrivenPose& pose, double rate, double rate_dot) const {
-  const double theta_dot = rate / unit_;
-  return scale_.velocity.cwiseProduct(pose.c * (theta_dot * theta_dot) +
-                                      pose.t * (rate_dot / unit_));
+double DrivenLinkage::residual(const State<double>& s) const {
+  return compute_scaled_closures(*closed_, scale_, s).residual.norm();
 }
 
 std::vector<std::string> DrivenLinkage::loose_joints(const State<double>& s) const {

@@ -26,6 +26,10 @@ Load torque_on_crank() {
   return load;
 }
 
+Eigen::VectorXd one(double x) {
+  return Eigen::VectorXd::Constant(1, x);
+}
+
 TEST(DrivenMotion, Has_the_accelerations_of_a_forced_run) {
   for (Linkage linkage : {four_bar(), bennett(), rsrrp(), rsrrp_revolute(), spatial_slider_crank(),
                           spatial_slider_crank_cut_at_universal()}) {
@@ -36,19 +40,19 @@ TEST(DrivenMotion, Has_the_accelerations_of_a_forced_run) {
     assemble_start(closed, start);
     const MobilityReport mobility = analyse_mobility(closed, start);
     const Drive drive = list_drives(closed.mechanism).front();
-    const DrivenLinkage driven(closed, start, mobility, drive);
-    const double from = start.q[static_cast<std::size_t>(drive.position)];
+    const DrivenLinkage driven(closed, start, mobility, {drive});
+    DriveCourse course;
+    course.from = driven.drive_position(start)[0];
+    course.to = *course.from + 3.0;
+    const DrivePath path({course}, 3.0 / kSpeed);
     Workspace<double> w = make_workspace<double>(closed.mechanism);
-    for (const DrivenPose& pose :
-         follow_drive(driven, start, mobility, {from, from + 3.0, 16, false}).poses) {
-      State<double> s = pose.s;
-      const Eigen::VectorXd v = driven.velocity(pose, kSpeed);
-      s.v.assign(v.begin(), v.end());
-      compute_motion(closed.mechanism, closed.parameters, s, w);
+    for (const DrivenPose& pose : follow_drives(driven, start, mobility, path, {16}).poses) {
+      compute_motion(closed.mechanism, closed.parameters, pose.s, w);
       const auto qdd = Eigen::Map<const Eigen::VectorXd>(w.qdd.data(), closed.mechanism.nv);
       const double crank = qdd[drive.velocity];
       EXPECT_GT(std::abs(crank), 1e-3);
-      EXPECT_TRUE(near_relative(driven.acceleration(pose, kSpeed, crank), qdd, 1e-9));
+      const DrivenRates rates = driven.rates(pose.s, one(kSpeed), one(crank));
+      EXPECT_TRUE(near_relative(driven.scale().velocity.cwiseProduct(rates.second), qdd, 1e-9));
     }
   }
 }

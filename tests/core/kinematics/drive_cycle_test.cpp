@@ -17,6 +17,13 @@ namespace {
 
 using ::testing::ElementsAre;
 
+// A course of one drive at unit speed.
+struct Course {
+  double from, to;
+  int positions;
+  bool both_ways;
+};
+
 class Driven {
  public:
   explicit Driven(const Linkage& linkage, const std::string& drive = "joint.A")
@@ -24,14 +31,18 @@ class Driven {
     assemble_start(closed_, start_);
     mobility_ = analyse_mobility(closed_, start_);
     for (const Drive& one : list_drives(closed_.mechanism)) {
-      if (one.name == drive) driven_.emplace(closed_, start_, mobility_, one);
+      if (one.name == drive) driven_.emplace(closed_, start_, mobility_, std::vector{one});
     }
   }
 
   const DrivenLinkage& linkage() const { return *driven_; }
-  double start() const { return start_.q[static_cast<std::size_t>(driven_->drive().position)]; }
-  DriveCycle follow(CourseOptions options) const {
-    return follow_drive(*driven_, start_, mobility_, options);
+  double start() const { return driven_->drive_position(start_)[0]; }
+  DriveCycle follow(const Course& course) const {
+    DriveCourse drive;
+    drive.from = course.from;
+    drive.to = course.to;
+    const DrivePath path({drive}, std::abs(course.to - course.from));
+    return follow_drives(*driven_, start_, mobility_, path, {course.positions, course.both_ways});
   }
   DriveCycle full_turn() const { return follow({start(), start() + 2 * M_PI, 73, true}); }
 
@@ -40,10 +51,10 @@ class Driven {
     return pose.s.q[static_cast<std::size_t>(body(joint).q_begin + i)];
   }
   double v(const DrivenPose& pose, double speed, const std::string& joint, int i = 0) const {
-    return driven_->velocity(pose, speed)[body(joint).v_begin + i];
+    return speed * pose.s.v[static_cast<std::size_t>(body(joint).v_begin + i)];
   }
   double a(const DrivenPose& pose, double speed, const std::string& joint, int i = 0) const {
-    return driven_->acceleration(pose, speed, 0.0)[body(joint).v_begin + i];
+    return speed * speed * pose.a[static_cast<std::size_t>(body(joint).v_begin + i)];
   }
 
  private:
@@ -163,7 +174,7 @@ TEST(DriveCycle, Of_RSRRP_follows_the_closed_form) {
 TEST(DriveCycle, Does_not_depend_on_where_the_loop_is_cut) {
   const Driven at_ball(spatial_slider_crank());
   const Driven at_universal(spatial_slider_crank_cut_at_universal());
-  const CourseOptions course{0.0, 1.0, 11, false};
+  const Course course{0.0, 1.0, 11, false};
   const DriveCycle a = at_ball.follow(course), b = at_universal.follow(course);
   ASSERT_EQ(a.poses.size(), b.poses.size());
   for (std::size_t i = 0; i < a.poses.size(); ++i) {
@@ -184,16 +195,16 @@ TEST(DriveCycle, Of_a_rocker_ends_where_it_locks_on_both_sides) {
   EXPECT_TRUE(cycle.is_reached);
   EXPECT_FALSE(cycle.is_complete);
   ASSERT_EQ(cycle.singular.size(), 2u);
-  EXPECT_NEAR(cycle.singular[0].drive, angle_at(g.coupler + g.rocker), 1e-6);
-  EXPECT_NEAR(cycle.singular[1].drive, angle_at(g.coupler - g.rocker), 1e-6);
+  EXPECT_NEAR(cycle.singular[0].drive[0], angle_at(g.coupler + g.rocker), 1e-6);
+  EXPECT_NEAR(cycle.singular[1].drive[0], angle_at(g.coupler - g.rocker), 1e-6);
   for (const SingularPosition& p : cycle.singular) {
     EXPECT_EQ(p.kind, SingularKind::lock);
     EXPECT_THAT(p.joints, ElementsAre("joint.B", "joint.D"));
   }
   for (std::size_t i = 1; i < cycle.poses.size(); ++i) {
-    EXPECT_NEAR(cycle.poses[i].theta - cycle.poses[i - 1].theta, 2 * M_PI / 72, 1e-12);
+    EXPECT_NEAR(cycle.poses[i].drive[0] - cycle.poses[i - 1].drive[0], 2 * M_PI / 72, 1e-12);
   }
-  const FourBarPose last = four_bar_pose(cycle.poses.back().theta, 1.0, g);
+  const FourBarPose last = four_bar_pose(cycle.poses.back().drive[0], 1.0, g);
   EXPECT_NEAR(turned(bar.q(cycle.poses.back(), "D"), last.rocker), 0.0, kExact);
 }
 
@@ -210,8 +221,8 @@ TEST(DriveCycle, Keeps_the_branch_of_parallel_rods_through_flat_positions) {
       }
     }
     ASSERT_EQ(cycle.singular.size(), 2u);
-    EXPECT_NEAR(cycle.singular[0].drive, M_PI, 1e-6);
-    EXPECT_NEAR(cycle.singular[1].drive, 2 * M_PI, 1e-6);
+    EXPECT_NEAR(cycle.singular[0].drive[0], M_PI, 1e-6);
+    EXPECT_NEAR(cycle.singular[1].drive[0], 2 * M_PI, 1e-6);
     for (const SingularPosition& p : cycle.singular) EXPECT_EQ(p.kind, SingularKind::branch);
   }
 }
@@ -222,7 +233,7 @@ TEST(DriveCycle, Can_start_at_a_change_point) {
   ASSERT_TRUE(cycle.is_complete);
   EXPECT_TRUE(cycle.poses.front().is_singular);
   ASSERT_EQ(cycle.singular.size(), 1u);
-  EXPECT_NEAR(cycle.singular[0].drive, 0.0, 1e-9);
+  EXPECT_NEAR(cycle.singular[0].drive[0], 0.0, 1e-9);
   // Coupler and rocker keep their lengths, whichever of the two branches was taken.
   for (const DrivenPose& pose : cycle.poses) {
     const double crank = bar.q(pose, "A"), coupler = crank + bar.q(pose, "B");

@@ -153,7 +153,7 @@ struct FullTurn {
         start(assembled(model)),
         mobility(analyse_mobility(model, start)),
         drive(list_drives(model.mechanism).front()),
-        driven(model, start, mobility, drive),
+        driven(model, start, mobility, {drive}),
         cycle(follow()) {}
 
   static State<double> assembled(const Model& model) {
@@ -162,8 +162,10 @@ struct FullTurn {
     return s;
   }
   DriveCycle follow() const {
-    const double from = start.q[static_cast<std::size_t>(drive.position)] + 0.1;
-    return follow_drive(driven, start, mobility, {from, from + 2.0 * M_PI, 25, false});
+    DriveCourse course;
+    course.from = driven.drive_position(start)[0] + 0.1;
+    course.to = *course.from + 2.0 * M_PI;
+    return follow_drives(driven, start, mobility, DrivePath({course}, 1.0), {25});
   }
 
   Model model;
@@ -291,8 +293,11 @@ TEST(MatrixProducts, Give_velocities_and_accelerations_of_driven_linkages) {
     const int n = map[static_cast<std::size_t>(turn.drive.velocity)];
     for (const DrivenPose& pose : turn.cycle.poses) {
       const Vector q = of_products(to_vector(pose.s.q), map);
-      const Vector v = of_products(turn.driven.velocity(pose, rate), map);
-      const Vector a = of_products(turn.driven.acceleration(pose, rate, rate_dot), map);
+      const DrivenRates rates =
+          turn.driven.rates(pose.s, Vector::Constant(1, rate), Vector::Constant(1, rate_dot));
+      const Vector& unit = turn.driven.scale().velocity;
+      const Vector v = of_products(unit.cwiseProduct(rates.first), map);
+      const Vector a = of_products(unit.cwiseProduct(rates.second), map);
       const Constraints loop = cut_constraints(trace, q, v);
       const Vector none = Vector::Zero(loop.value.size());
       EXPECT_TRUE(near_absolute(loop.value, none, 1e-11));
