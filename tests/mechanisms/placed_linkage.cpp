@@ -66,6 +66,16 @@ Linkage planar_4r() {
       .linkage();
 }
 
+Linkage five_bar() {
+  return PlacedLinkage("five_bar")
+      .add("A", revolute, kGround, "crank", {{0, 0, 0}})
+      .add("B", revolute, "crank", "rod", {{-0.05, 0.25, 0}})
+      .add("E", revolute, kGround, "other_crank", {{0.45, 0, 0}})
+      .add("D", revolute, "other_crank", "other_rod", {{0.5, 0.28, 0}})
+      .close("C", revolute, "rod", "other_rod", {{0.2, 0.5, 0}})
+      .linkage();
+}
+
 Linkage spherical_4r() {
   const Vector3d centre(0.1, 0.2, 0.3);
   const auto axis = [&](double x, double y, double z) {

@@ -33,6 +33,9 @@ class PlacedLinkage {
 };
 
 Linkage planar_4r();
+// Two cranks A and E on ground, each with a rod, joined at C: two freedoms. In ground coordinates
+// A (0, 0), B (-0.05, 0.25), C (0.2, 0.5), D (0.5, 0.28), E (0.45, 0).
+Linkage five_bar();
 Linkage spherical_4r();
 // Two triples of parallel axes between ground and a platform that moves straight up.
 Linkage sarrus();

@@ -1,0 +1,22 @@
+// Basic loops: every closure makes one, of the joints on the two ways from its links back to the
+// body where these meet. The closure is where the loop is cut ([Palcak] "Virtual cut").
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/model/mechanism.h"
+
+namespace linkstudy {
+
+struct BasicLoop {
+  int closure = 0;
+  int common = 0;                   // body where the two ways meet
+  std::vector<int> first, second;   // velocities on the ways from there, outwards
+  std::vector<std::string> joints;  // round the loop: "joint.A", .., "closure.S", .., "joint.D"
+};
+
+// In the order of the closures.
+std::vector<BasicLoop> find_basic_loops(const Mechanism& m);
+
+}  // namespace linkstudy
