@@ -69,7 +69,7 @@ const std::vector<Verb>& verbs() {
          1,
          1,
          "finds mobility, redundant joints, and the motion over a driven cycle",
-         {"set,s", "drive", "from", "to", "positions", "speed", "csv", "json"}},
+         {"set,s", "drive", "from", "to", "positions", "speed", "csv", "h5", "json"}},
         {"study", "FILE", 1, 1, "runs a parameter study; starts or continues", run_options()},
         {"tune", "FILE", 1, 1, "finds the lowest value that matches the reference", tune},
         {"status", "DIR", 1, 1, "tells how far a study is, running or dead", {"json"}},
@@ -121,20 +121,24 @@ void add_run_options(const std::string& name, CommandLine& line, po::options_des
 void add_course_options(const std::string& name, CommandLine& line, po::options_description& out) {
   if (name == "drive") {
     out.add_options()(
-        "drive", optional_value(line.drive)->value_name("joint.NAME"),
-        "driven coordinate; default: of the first drive load, or the first on ground");
+        "drive", po::value(&line.drives)->composing()->value_name("joint.NAME[=FROM:TO]"),
+        "driven coordinate; repeatable; default: the model's [kinematics], else the joint of the "
+        "first drive load, else the first on ground");
   } else if (name == "from") {
     out.add_options()("from", optional_value(line.from)->value_name("Q"),
                       "first position of the drive, such as 0 or \"90 deg\"; default: the start");
   } else if (name == "to") {
     out.add_options()("to", optional_value(line.to)->value_name("Q"),
                       "last position; default: a full turn on");
+  } else if (name == "h5") {
+    out.add_options()("h5", optional_value(line.h5)->value_name("FILE"),
+                      "write everything as HDF5: positions, poses, singular positions, loops");
   } else if (name == "positions") {
     out.add_options()("positions", optional_value(line.positions)->value_name("N"),
                       "number of positions, both ends included (73)");
   } else if (name == "speed") {
     out.add_options()("speed", optional_value(line.speed)->value_name("V"),
-                      "constant speed of the drive (1 rad/s or m/s)");
+                      "constant speed of a single drive (1 rad/s or m/s)");
   } else {
     add_run_options(name, line, out);
   }

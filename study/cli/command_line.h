@@ -36,8 +36,9 @@ struct CommandLine {
   std::optional<std::string> csv;
   std::optional<std::string> signals;  // a,b
   std::string format = "csv";
-  std::optional<std::string> drive;  // joint.NAME
-  std::optional<std::string> from;   // of the driven coordinate, with or without unit
+  std::optional<std::string> h5;
+  std::vector<std::string> drives;  // joint.NAME or joint.NAME=FROM:TO
+  std::optional<std::string> from;  // of the driven coordinate, with or without unit
   std::optional<std::string> to;
   std::optional<std::string> speed;
   std::optional<int> positions;

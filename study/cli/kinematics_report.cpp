@@ -6,7 +6,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "core/simulation/channels.h"
 #include "study/cli/output.h"
 
 namespace linkstudy {
@@ -28,7 +27,7 @@ std::string plural(int count, const std::string& one, const std::string& many) {
   return fmt::format("{} {}", count, count == 1 ? one : many);
 }
 
-std::string angle_or_length(const Drive& drive, double value) {
+std::string position_text(const Drive& drive, double value) {
   return drive.turns ? fmt::format("{:.9g} rad ({:.6g} deg)", value, value * 180.0 / M_PI)
                      : fmt::format("{:.9g} m", value);
 }
@@ -79,58 +78,104 @@ std::string idle_text(const IdleFreedom& idle) {
                      fmt::join(idle.joints, " and "));
 }
 
-std::string singular_text(const Drive& drive, const SingularPosition& p) {
-  const std::string where = angle_or_length(drive, p.drive);
+// All drives at a position of the course.
+std::string drives_text(const std::vector<Drive>& drives, const Eigen::VectorXd& at) {
+  if (drives.size() == 1) return position_text(drives.front(), at[0]);
+  std::vector<std::string> parts;
+  for (std::size_t i = 0; i < drives.size(); ++i) {
+    parts.push_back(fmt::format("{} = {}", drives[i].name,
+                                position_text(drives[i], at[static_cast<Eigen::Index>(i)])));
+  }
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+std::string singular_text(const std::vector<Drive>& drives, const SingularPosition& p) {
   const char* what = p.kind == SingularKind::lock
                          ? "locks: cannot be driven beyond"
                          : "branches, the drive does not decide which way:";
-  return fmt::format("{} {}; {} may move while {} rests", what, where, fmt::join(p.joints, ", "),
-                     drive.name);
+  const std::string rests =
+      drives.size() == 1 ? drives.front().name + " rests" : std::string("the drives rest");
+  return fmt::format("{} {}; {} may move while {} (h = {}, h_R = {} of {})", what,
+                     drives_text(drives, p.drive), fmt::join(p.joints, ", "), rests, p.ranks.h,
+                     p.ranks.h_r, p.regular_rank);
 }
 
-double worst_quality(const DriveCycle& cycle, std::size_t& at) {
-  double worst = 1.0;
-  for (std::size_t i = 0; i < cycle.poses.size(); ++i) {
-    if (cycle.poses[i].quality > worst) continue;
-    worst = cycle.poses[i].quality;
-    at = i;
+const DrivenPose& worst_pose(const DriveCycle& cycle) {
+  return *std::min_element(
+      cycle.poses.begin(), cycle.poses.end(),
+      [](const DrivenPose& a, const DrivenPose& b) { return a.quality < b.quality; });
+}
+
+const char* name_of(MotionLaw law) {
+  switch (law) {
+    case MotionLaw::smooth:
+      return "smooth";
+    case MotionLaw::polynomial_345:
+      return "polynomial 3-4-5";
+    case MotionLaw::table:
+      return "table";
+    default:
+      return "linear";
   }
-  return worst;
 }
 
-std::string course_text(const KinematicsResult& result) {
-  const DrivenLinkage& driven = *result.driven;
-  const Drive& drive = driven.drive();
-  const DriveCycle& cycle = result.cycle;
-  std::string text = summary_line("drive", fmt::format("{} from {} to {}", drive.name,
-                                                       angle_or_length(drive, result.course.from),
-                                                       angle_or_length(drive, result.course.to)));
+std::string drive_text(const Drive& drive, const DriveCourse& course, double duration) {
+  const bool is_table = course.law == MotionLaw::table;
+  const double from = is_table ? course.positions.front() : *course.from;
+  const double to = is_table ? course.positions.back() : *course.to;
+  return fmt::format("{} from {} to {}, {} in {:.6g} s", drive.name, position_text(drive, from),
+                     position_text(drive, to), name_of(course.law), duration);
+}
+
+std::string notes_text(const DrivenLinkage& driven) {
+  std::string text;
   if (driven.releases_holds()) {
-    text += summary_line("note", "hold = true is left aside: the drive could not move");
+    text += summary_line("note", "hold = true is left aside: the drives could not move");
+  }
+  if (driven.is_overdriven()) {
+    text += summary_line("note",
+                         "the drives contradict each other or the closures: together they "
+                         "cannot move");
   }
   if (driven.undetermined() > 0) {
     text += summary_line("note",
-                         fmt::format("{} not determined by the drive: least motion taken",
+                         fmt::format("{} not determined by the drives: least motion taken",
                                      plural(driven.undetermined(), "freedom is", "freedoms are")));
   }
+  return text;
+}
+
+std::string course_text(const KinematicsResult& result) {
+  const std::vector<Drive>& drives = result.course->drives;
+  const DrivePath& path = result.course->path;
+  const DriveCycle& cycle = result.cycle;
+  std::string text;
+  for (std::size_t i = 0; i < drives.size(); ++i) {
+    text += summary_line("drive", drive_text(drives[i], path.courses()[i], path.duration()));
+  }
+  text += notes_text(*result.driven);
   if (!cycle.is_reached) text += summary_line("course", "its begin cannot be reached");
   if (cycle.is_reached) {
-    std::size_t at = 0;
-    const double worst = worst_quality(cycle, at);
-    text += summary_line(
-        "course", fmt::format("{} of {} positions{}", cycle.poses.size(), result.course.positions,
-                              cycle.is_complete ? "" : ", the rest is locked"));
-    if (!cycle.poses.empty()) {
-      text += summary_line(
-          "transmission",
-          fmt::format("quality at least {:.4g}, at {}", worst,
-                      angle_or_length(drive, driven.coordinate(cycle.poses[at].theta))));
-    }
+    text += summary_line("course", fmt::format("{} of {} positions{}", cycle.poses.size(),
+                                               result.course->options.positions,
+                                               cycle.is_complete ? "" : ", the rest is locked"));
+  }
+  if (!cycle.poses.empty()) {
+    const DrivenPose& worst = worst_pose(cycle);
+    text +=
+        summary_line("transmission", fmt::format("quality at least {:.4g}, at {}", worst.quality,
+                                                 drives_text(drives, worst.drive)));
   }
   for (const SingularPosition& p : cycle.singular) {
-    text += summary_line("singular", singular_text(drive, p));
+    text += summary_line("singular", singular_text(drives, p));
   }
   return text;
+}
+
+std::string loop_text(const LoopResult& r) {
+  return fmt::format("{}; cut at {}; proper equations {}, conditioning {:.3g}, at least {:.3g}",
+                     fmt::join(r.loop.joints, ", "), cut_of(r.loop), elements_text(r.proper),
+                     r.proper.conditioning, r.least_conditioning);
 }
 
 Json number(double value) {
@@ -140,13 +185,44 @@ Json number(double value) {
 Json singular_json(const KinematicsResult& result) {
   Json all = Json::array();
   for (const SingularPosition& p : result.cycle.singular) {
+    const std::vector<Drive>& drives = result.course->drives;
+    Json at = Json::object();
+    for (std::size_t i = 0; i < drives.size(); ++i) {
+      at[drives[i].name] = p.drive[static_cast<Eigen::Index>(i)];
+    }
     all.push_back({{"kind", name_of(p.kind)},
-                   {"drive", result.driven->drive().name},
-                   {"position", p.drive},
+                   {"drive", drives.front().name},
+                   {"position", p.drive[0]},
+                   {"drives", at},
+                   {"time", p.time},
                    {"quality", number(p.quality)},
+                   {"dependent", p.ranks.dependent},
+                   {"h", p.ranks.h},
+                   {"h_R", p.ranks.h_r},
+                   {"regular_rank", p.regular_rank},
                    {"joints", p.joints}});
   }
   return all;
+}
+
+Json loops_json(const KinematicsResult& result) {
+  Json all = Json::array();
+  for (const LoopResult& r : result.loops) {
+    Json elements = Json::array();
+    for (const int element : r.proper.elements) elements.push_back(element_name(element));
+    all.push_back({{"cut", cut_of(r.loop)},
+                   {"joints", r.loop.joints},
+                   {"elements", elements},
+                   {"conditioning", number(r.proper.conditioning)},
+                   {"least_conditioning", number(r.least_conditioning)}});
+  }
+  return all;
+}
+
+Json drives_json(const KinematicsResult& result) {
+  Json names = Json::array();
+  for (const Drive& drive : result.course->drives) names.push_back(drive.name);
+  return names;
 }
 
 // Distance of the last singular value kept from the first dropped; null without one of them.
@@ -170,16 +246,6 @@ Json idle_json(const MobilityReport& r) {
   return all;
 }
 
-std::vector<Channel> table_channels(const Mechanism& mechanism) {
-  std::vector<Channel> channels;
-  for (const Channel& channel : list_channels(mechanism)) {
-    const bool is_wanted = channel.quantity == Quantity::q || channel.quantity == Quantity::v ||
-                           channel.quantity == Quantity::a;
-    if (is_wanted) channels.push_back(channel);
-  }
-  return channels;
-}
-
 }  // namespace
 
 std::string kinematics_text(const std::string& file, const std::string& name,
@@ -200,6 +266,7 @@ std::string kinematics_text(const std::string& file, const std::string& name,
                                     : fmt::format("singular, {}", name_of(r.state)));
   if (r.redundant > 0) text += summary_line("redundant", redundant_text(r));
   for (const IdleFreedom& idle : r.idle) text += summary_line("idle", idle_text(idle));
+  for (const LoopResult& loop : result.loops) text += summary_line("loop", loop_text(loop));
   return result.driven ? text + course_text(result) : text;
 }
 
@@ -219,40 +286,28 @@ std::string kinematics_json(const KinematicsResult& result) {
                {"rank_gap", gap_json(r.rank)},
                {"singular_state", name_of(r.state)},
                {"singular_positions", singular_json(result)},
+               {"basic_loops", loops_json(result)},
+               {"branch", result.assembly.branch},
                {"closed", result.assembly.closed},
                {"verdict", verdict(result)}};
   if (result.driven) {
-    json["drive"] = result.driven->drive().name;
+    json["drive"] = result.course->drives.front().name;
+    json["drives"] = drives_json(result);
     json["positions"] = result.cycle.poses.size();
     json["complete"] = result.cycle.is_complete;
   }
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-Table kinematics_table(const Mechanism& mechanism, const KinematicsResult& result) {
-  Table table;
-  const std::vector<Channel> channels = table_channels(mechanism);
-  for (const Channel& channel : channels) table.columns.push_back({channel.name, channel.unit});
-  table.columns.push_back({"quality", "1"});
-  table.columns.push_back({"residual", "1"});
-  for (const DrivenPose& pose : result.cycle.poses) {
-    const Eigen::VectorXd v = result.driven->velocity(pose, result.speed);
-    const Eigen::VectorXd a = result.driven->acceleration(pose, result.speed, 0.0);
-    std::vector<Cell> cells;
-    for (const Channel& channel : channels) {
-      if (channel.quantity == Quantity::q) {
-        cells.emplace_back(pose.s.q[static_cast<std::size_t>(channel.index)]);
-      } else if (pose.is_singular) {
-        cells.emplace_back();
-      } else {
-        cells.emplace_back(channel.quantity == Quantity::v ? v[channel.index] : a[channel.index]);
-      }
-    }
-    cells.emplace_back(pose.quality);
-    cells.emplace_back(pose.residual);
-    table.rows.push_back(std::move(cells));
-  }
-  return table;
+std::string cut_of(const BasicLoop& loop) {
+  const auto is_cut = [](const std::string& name) { return name.starts_with("closure."); };
+  return *std::find_if(loop.joints.begin(), loop.joints.end(), is_cut);
+}
+
+std::string elements_text(const ProperElements& proper) {
+  std::vector<std::string> names;
+  for (const int element : proper.elements) names.emplace_back(element_name(element));
+  return fmt::format("{}", fmt::join(names, " "));
 }
 
 }  // namespace linkstudy

@@ -1,0 +1,32 @@
+// Everything `kinematics` finds out about a model.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/kinematics/loop_equations.h"
+#include "study/cli/kinematics_course.h"
+
+namespace linkstudy {
+
+// A basic loop with its proper elements, chosen at the start.
+struct LoopResult {
+  BasicLoop loop;
+  ProperElements proper;
+  double least_conditioning = 0.0;  // of the same elements over the course
+};
+
+struct KinematicsResult {
+  AssemblyReport assembly;
+  MobilityReport mobility;
+  std::optional<KinematicsCourse> course;  // nothing where there is nothing to drive
+  std::optional<DrivenLinkage> driven;
+  DriveCycle cycle;
+  std::vector<LoopResult> loops;
+};
+
+KinematicsResult analyse_kinematics(const CommandLine& line, const KinematicsOptions& declared,
+                                    const Model& closed);
+
+}  // namespace linkstudy
