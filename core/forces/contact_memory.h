@@ -1,16 +1,10 @@
-// What contacts remember from one accepted state to the next, and what a run tells of them.
+// What contacts remember from one accepted state to the next.
 #pragma once
 
 #include "core/forces/contact_forces.h"
+#include "core/forces/contact_log.h"
 
 namespace linkstudy {
-
-// Contacts of one lane, all places together.
-template <class Real>
-struct ContactLog {
-  Real begun = Real(0.0);        // contacts begun
-  Real least_steps = Real(1e9);  // steps in the shortest contact that has ended
-};
 
 // No contact acts, wherever the journals are.
 template <class M, class Real>

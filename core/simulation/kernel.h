@@ -3,14 +3,12 @@
 #pragma once
 
 #include "core/base/isa.h"
+#include "core/forces/contact_log.h"
 #include "core/model/parameters.h"
 #include "core/simulation/cause.h"
 #include "core/simulation/observers.h"
 
 namespace linkstudy {
-
-// Steps of the shortest contact where none has ended.
-inline constexpr double kNoContact = 1e9;
 
 // How the run of one lane ended.
 struct LaneEnd {
