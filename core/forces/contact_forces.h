@@ -60,8 +60,7 @@ template <class M, class C, class I, class Real>
   const ContactStructure& contact = at(m.contacts, i);
   const ContactMemory<Real>& memory = at(w.memory, i);
   ContactState<Real>& s = at(w.contacts, i);
-  const ContactGeometry<Real> k =
-      contact_geometry(j, Real(contact.side) * n.length, n.radial, n.bearing_radius);
+  const ContactGeometry<Real> k = contact_geometry(j, contact, n);
   s.eccentricity = Real(-1.0) * k.x;
   s.depth = k.depth;
   s.rate = k.rate;
@@ -85,14 +84,11 @@ template <class M, class C, class I, class Real>
 template <class M, class Real>
 inline void add_contacts(const M& m, const Parameters<Real>& p, Workspace<Real, M>& w) {
   BodyState<Real>* bodies = w.bodies.data();
-  for_clearances(m, [&](auto c) {
-    const ClearanceStructure& clearance = at(m.clearances, c);
-    const ClosureStructure& closure = at(m.closures, clearance.closure);
-    ClosureState<Real>& x = at(w.closures, clearance.closure);
-    update_closure_pose(m, closure, at(p.closures, clearance.closure), bodies, x);
+  for_journals(m, p, w, [&](auto c, const JournalInBearing<Real>& j) {
+    const int index = at(m.clearances, c).closure;
+    const ClosureStructure& closure = at(m.closures, index);
+    ClosureState<Real>& x = at(w.closures, index);
     x.contact_force = x.contact_moment = zero3<Real>();
-    const JournalInBearing<Real> j =
-        journal_in_bearing(clearance, x, bodies[closure.first], bodies[closure.second]);
     for_contacts(m, c, [&](auto i) { add_contact(m, c, i, j, at(p.clearances, c), x, w); });
     subtract_contact_forces(closure, x, bodies, bodies[closure.first].wrench,
                             bodies[closure.second].wrench);
