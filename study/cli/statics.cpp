@@ -20,7 +20,8 @@ std::vector<Channel> static_channels(const Mechanism& mechanism) {
   for (const Channel& channel : list_channels(mechanism)) {
     const bool is_wanted =
         channel.quantity == Quantity::q || channel.quantity == Quantity::closure_force ||
-        channel.quantity == Quantity::closure_torque || channel.quantity == Quantity::closure_gap;
+        channel.quantity == Quantity::closure_torque || channel.quantity == Quantity::closure_gap ||
+        channel.quantity == Quantity::point_position;
     if (is_wanted) channels.push_back(channel);
   }
   return channels;
