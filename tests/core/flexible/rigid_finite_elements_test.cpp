@@ -37,7 +37,7 @@ const Joint& joint_named(const Linkage& linkage, const std::string& name) {
                        [&](const Joint& joint) { return joint.name == name; });
 }
 
-// Element of the expanded beam of length 1 at whose span a load at x ends up.
+// Element of the expanded beam of length 1 at whose span a load and a chosen point at x end up.
 std::string element_at(int segments, double x) {
   BeamData data;
   data.length = 1.0;
@@ -48,7 +48,11 @@ std::string element_at(int segments, double x) {
   load.link = "beam";
   load.point = Vector3d(x, 0.3, -2.0);  // off the axis: its projection counts
   linkage.loads = {load};
-  return expand_flexible_links(linkage).loads[0].link;
+  linkage.points = {{"point", "beam", load.point}, {"still", kGround, load.point}};
+  const Linkage expanded = expand_flexible_links(linkage);
+  EXPECT_EQ(expanded.points[0].link, expanded.loads[0].link);
+  EXPECT_EQ(expanded.points[1].link, kGround);
+  return expanded.loads[0].link;
 }
 
 // Every link of a random tree a flexible beam somewhere in it, with inertia of its section as a
