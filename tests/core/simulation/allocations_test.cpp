@@ -103,7 +103,8 @@ TEST(Allocations, Ten_times_the_steps_allocate_no_more) {
   Linkage replaced = rsrrp(), projected = rsrrp();
   replaced.closures[0].model = ClosureModel::sde;
   projected.closures[0].stabilization = Stabilization::projection;
-  for (const Linkage& linkage : {rsrrp(), replaced, projected, four_bar()}) {
+  for (Linkage linkage : {rsrrp(), replaced, projected, four_bar()}) {
+    linkage.points = {{"tip", linkage.links.back().name, Eigen::Vector3d::Ones()}};
     const Model model = compile(linkage);
     const long few = allocations_of(model, 200);
     EXPECT_GT(few, 0) << "setting up allocates";
