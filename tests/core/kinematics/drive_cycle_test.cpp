@@ -287,5 +287,16 @@ TEST(DriveCycle, Says_that_its_begin_cannot_be_reached) {
   EXPECT_EQ(cycle.singular[0].kind, SingularKind::lock);
 }
 
+TEST(DriveCycle, Tells_the_ranks_where_branches_cross) {
+  const Driven rods(n_four_bar(2), "joint.A0");
+  const DriveCycle cycle = rods.follow({M_PI / 2, 2.5 * M_PI, 50, false});
+  ASSERT_EQ(cycle.singular.size(), 2u);
+  for (const SingularPosition& p : cycle.singular) {
+    EXPECT_EQ(p.regular_rank, 4);
+    EXPECT_EQ(p.ranks.h, 2);
+    EXPECT_EQ(p.ranks.h_r, 2);
+  }
+}
+
 }  // namespace
 }  // namespace linkstudy::testing
