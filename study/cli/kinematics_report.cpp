@@ -162,9 +162,10 @@ std::string course_text(const KinematicsResult& result) {
   }
   if (!cycle.poses.empty()) {
     const DrivenPose& worst = worst_pose(cycle);
-    text +=
-        summary_line("transmission", fmt::format("quality at least {:.4g}, at {}", worst.quality,
-                                                 drives_text(drives, worst.drive)));
+    const std::string where =
+        drives.size() == 1 ? drives_text(drives, worst.drive) : fmt::format("{:.6g} s", worst.time);
+    text += summary_line("transmission",
+                         fmt::format("quality at least {:.4g}, at {}", worst.quality, where));
   }
   for (const SingularPosition& p : cycle.singular) {
     text += summary_line("singular", singular_text(drives, p));
