@@ -45,6 +45,7 @@ Case make_case(const Linkage& linkage, int i, long steps) {
     for (double& x : changed.joints[0].velocity) x *= 1.0 + 0.07 * i;
     c.clearance.radial *= 1.0 - 0.02 * i;
   }
+  changed.points = {{"tip", changed.links.back().name, factor * Eigen::Vector3d::Ones()}};
   Case made{compile(changed), {}, {}};
   made.observers = watch_everything(made.model, steps);
   return made;

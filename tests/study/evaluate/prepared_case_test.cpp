@@ -16,7 +16,8 @@ class Grouping : public ::testing::Test {
  protected:
   Grouping() {
     const auto base = test::replaced(test::rsrrp_text(), "end_time = 15.0", "end_time = 0.05");
-    document_ = ModelDocument::parse(base, "model.toml", diagnostics_);
+    const std::string point = "[[point]]\nname = \"tip\"\nlink = \"coupler\"\n";
+    document_ = ModelDocument::parse(base + point, "model.toml", diagnostics_);
   }
 
   // Ready to run, with the speed of the crank reduced.
@@ -54,6 +55,14 @@ class Grouping : public ::testing::Test {
 TEST_F(Grouping, Puts_numbers_of_one_structure_together) {
   for (const double mass : {1.0, 2.0, 3.0}) add({{"link.crank.mass", mass}});
   EXPECT_THAT(groups(), ElementsAre(ElementsAre(0, 1, 2)));
+}
+
+TEST_F(Grouping, Keeps_apart_points_of_other_links_and_not_other_points_of_a_link) {
+  add({});
+  add({{"point.tip.position.0", 0.1}});
+  add({{"point.tip.link", std::string("yoke")}});
+  add({{"point.tip.link", std::string("ground")}});
+  EXPECT_THAT(groups(), ElementsAre(ElementsAre(0, 1), ElementsAre(2), ElementsAre(3)));
 }
 
 TEST_F(Grouping, Keeps_apart_what_differs_in_steps_samples_limits_or_structure) {
