@@ -12,7 +12,6 @@ namespace linkstudy {
 namespace {
 
 constexpr double kOpen = std::numeric_limits<double>::infinity();
-constexpr int kPowers = 2;  // supplied, dissipated: nothing depends on them
 
 bool hits(const Observers& all, long step) {
   const auto hit = [step](const auto& o) { return o.sampling.hits(step); };
@@ -35,13 +34,14 @@ class LocatedRun {
         setting_(setting),
         case_(c),
         p_(*c.parameters),
-        size_(static_cast<std::size_t>(m.nq + m.nv + m.nz + kPowers)),
+        size_(static_cast<std::size_t>(state_size(m))),
         y_(c.y, c.y + size_),
         at_(size_),
         correction_(static_cast<std::size_t>(m.nv)),
         w_(make_workspace<double>(m)),
         look_w_(make_workspace<double>(m)),
         now_(m_, p_, w_),
+        checks_(m_, p_),
         observers_(&case_, 1),
         integrator_(make_adaptive_integrator(options.integrator == Integrator::stiff
                                                  ? AdaptiveMethod::rosenbrock
@@ -52,9 +52,7 @@ class LocatedRun {
         phases_(m.contacts.size()),
         touches_(m.contacts.size()),
         begin_(m.contacts.size()),
-        end_(m.contacts.size()) {
-    for (const auto& body : p_.bodies) mass_ += body.mass;
-  }
+        end_(m.contacts.size()) {}
 
   LocatedReport run() {
     const FlushDenormals flush;
@@ -66,7 +64,7 @@ class LocatedRun {
  private:
   AdaptiveProblem problem() {
     AdaptiveProblem p;
-    p.slopes = [this](double t, const double* y, double* dy) { write_slopes(t, y, dy); };
+    p.slopes = [this](double t, const double* y, double* dy) { differentiate(t, y, dy); };
     p.relative = options_.relative_tolerance;
     p.absolute.assign(size_, options_.absolute_tolerance);
     p.passive = kPowers;
@@ -76,19 +74,11 @@ class LocatedRun {
   double time_of(long step) const { return setting_.t0 + static_cast<double>(step) * setting_.h; }
   double end_time() const { return time_of(setting_.count); }
 
-  [[gnu::flatten]] void evaluate_at(double t, const double* y) {
-    std::copy(y + m_.nq + m_.nv, y + m_.nq + m_.nv + m_.nz, w_.z.begin());
-    evaluate(m_, p_, t, y, y + m_.nq, w_);
-  }
+  [[gnu::flatten]] void evaluate_at(double t, const double* y) { evaluate_state(m_, p_, t, y, w_); }
 
-  void write_slopes(double t, const double* y, double* dy) {
+  void differentiate(double t, const double* y, double* slope) {
     evaluate_at(t, y);
-    const double* v = y + m_.nq;
-    for (const Stage& s : m_.stages) position_rates(s, y + s.q, v + s.v, dy + s.q);
-    double* rest = std::copy(w_.qdd.begin(), w_.qdd.end(), dy + m_.nq);
-    rest = std::copy(w_.z_rate.begin(), w_.z_rate.end(), rest);
-    rest[0] = w_.supplied_power;
-    rest[1] = w_.dissipated_power;
+    write_slopes(m_, y, w_, slope);
     if (++since_poll_ >= kStepsBetweenPolls) poll(t);
   }
 
@@ -106,19 +96,12 @@ class LocatedRun {
   [[gnu::flatten]] void look_at(const double* y, Nearness* contacts) {
     ++looks_;
     update_kinematics(m_, p_, y, y + m_.nq, look_w_);
-    for (const ClearanceStructure& c : m_.clearances) {
-      const ClosureStructure& closure = at(m_.closures, c.closure);
-      ClosureState<double>& x = at(look_w_.closures, c.closure);
-      const BodyState<double>* bodies = look_w_.bodies.data();
-      update_closure_pose(m_, closure, at(p_.closures, c.closure), bodies, x);
-      const auto j = journal_in_bearing(c, x, bodies[closure.first], bodies[closure.second]);
-      const auto& n = p_.clearances[static_cast<std::size_t>(&c - m_.clearances.data())];
-      for (int i = c.contact_begin; i < c.contact_end; ++i) {
-        const auto k =
-            contact_geometry(j, at(m_.contacts, i).side * n.length, n.radial, n.bearing_radius);
+    for_journals(m_, p_, look_w_, [&](int c, const JournalInBearing<double>& j) {
+      for_contacts(m_, c, [&](int i) {
+        const auto k = contact_geometry(j, at(m_.contacts, i), at(p_.clearances, c));
         contacts[i] = {k.depth, k.rate};
-      }
-    }
+      });
+    });
   }
 
   void look_inside(double t, Nearness* contacts) {
@@ -127,20 +110,14 @@ class LocatedRun {
     look_at(at_.data(), contacts);
   }
 
-  // Returns a state to unit quaternions and closed joints.
-  void settle(double* y) {
-    if (!m_.ball_q.empty()) normalize_quaternions(m_, y);
-    if (!m_.projects) return;
-    update_factored_mass_matrix(m_, p_, 0.0, y, y + m_.nq, w_);
-    project(m_, p_, y, y + m_.nq, correction_.data(), w_);
-  }
+  void settle(double* y) { settle_state(m_, p_, y, correction_.data(), w_); }
 
   void begin() {
     look_at(y_.data(), begin_.data());
     for (std::size_t i = 0; i < phases_.size(); ++i) {
       phases_[i] = {begin_[i].depth > 0.0, begin_[i].depth == 0.0};
       set_memory(i, begin_[i].rate);
-      if (phases_[i].touching) ++begun_;
+      if (phases_[i].touching) log_.begun += 1.0;
     }
     time_ = setting_.t0;
     observe_grid(0, y_.data());
@@ -195,12 +172,11 @@ class LocatedRun {
     ++observed_;
     if (++since_poll_ >= kStepsBetweenPolls) poll(t);
     now_.move_to(t, y);
-    if (step == 0) start_ledger();
+    if (step == 0) checks_.start_ledger(now_);
     check_motion(y, w_);
-    least_rank_ = std::min(least_rank_, w_.kept_rows);
-    greatest_rank_ = std::max(greatest_rank_, w_.kept_rows);
+    checks_.see_rank(true, w_.kept_rows);
     if (w_.jammed != 0) fail(Cause::diverged);
-    if (step % setting_.energy_stride == 0) check_energy();
+    if (step % setting_.energy_stride == 0 && !checks_.balances(now_)) fail(Cause::energy_blowup);
     if (!cause_) observers_.observe(step, now_);
   }
 
@@ -252,13 +228,13 @@ class LocatedRun {
   }
 
   void begin_contact(std::size_t i) {
-    ++begun_;
+    log_.begun += 1.0;
     touches_[i].steps = 0.0;
     if (++begun_in_interval_ > kMostContacts) fail(Cause::contact_budget);
   }
 
   void end_contact(std::size_t i) {
-    least_steps_ = std::min(least_steps_, touches_[i].steps);
+    log_.least_steps = std::min(log_.least_steps, touches_[i].steps);
     const ContactStructure& contact = m_.contacts[i];
     const bool resets =
         contact.z >= 0 && at(m_.clearances, contact.clearance).free_bristle == FreeBristle::reset;
@@ -273,66 +249,27 @@ class LocatedRun {
     return still ? integrator_->next_step() : free_step_;
   }
 
+  // Contacts have been looked at already; cut rows have not.
   void check_accepted() {
-    if (phases_.empty() && m_.cut_rows.empty()) {
-      check_speed(y_.data());
-      return;
+    if (!m_.cut_rows.empty()) {
+      update_kinematics(m_, p_, y_.data(), y_.data() + m_.nq, look_w_);
+      update_rows<ClosureModel::cut>(m_, p_, look_w_);
     }
-    // Contacts have been looked at already; cut rows have not.
-    update_kinematics(m_, p_, y_.data(), y_.data() + m_.nq, look_w_);
-    update_rows<ClosureModel::cut>(m_, p_, look_w_);
     check_motion(y_.data(), look_w_);
   }
 
-  void check_speed(const double* y) {
-    for (int k = 0; k < m_.nv; ++k) {
-      if (!(std::fabs(y[m_.nq + k]) < kFastest)) fail(Cause::diverged);
-    }
-  }
-
   void check_motion(const double* y, const Workspace<double>& w) {
-    check_speed(y);
-    for (const double a : w.qdd) {
-      if (!std::isfinite(a)) fail(Cause::diverged);
-    }
-    double square = 0.0;
-    for (const auto& row : w.cut_rows) square += row.d * row.d;
-    const double drift = std::sqrt(square);
-    drift_max_ = std::max(drift_max_, drift);
-    if (!(drift <= setting_.drift_limit)) fail(Cause::constraint_drift);
-  }
-
-  void start_ledger() {
-    initial_ = now_.energy();
-    initial_supplied_ = now_.supplied();
-    now_.set_initial_energy(initial_.kinetic + initial_.potential() - now_.supplied() +
-                            now_.dissipated());
-  }
-
-  // As in run.h: the ledger must hold up to the energy that has entered.
-  void check_energy() {
-    const Energy<double> e = now_.energy();
-    const double residual = std::fabs(now_.residual());
-    const double supplied = std::fabs(now_.supplied() - initial_supplied_);
-    residual_max_ = std::max(residual_max_, residual);
-    scale_ = std::max({scale_, e.kinetic, supplied + std::fabs(now_.dissipated())});
-    const double entered =
-        supplied + initial_.kinetic + initial_.elastic + std::fabs(e.height - initial_.height);
-    if (!(residual <= kEnergyFactor * entered + kEnergyFloor * mass_)) fail(Cause::energy_blowup);
+    if (!checks_.moves(m_, y, w)) fail(Cause::diverged);
+    if (!checks_.is_closed(m_, w, setting_.drift_limit)) fail(Cause::constraint_drift);
   }
 
   LocatedReport finish(Cause cause) {
     LaneEnd& end = *case_.end;
     end.cause = cause;
-    end.least_rank = static_cast<int>(least_rank_);
-    end.greatest_rank = static_cast<int>(greatest_rank_);
-    end.redundant = end.least_rank < m_.cut_row_count();
     end.steps = step_;
-    end.drift_max = drift_max_;
-    end.energy_residual_max = residual_max_;
-    end.energy_scale = scale_;
-    end.contacts = static_cast<double>(begun_);
-    end.least_contact_steps = least_steps_;
+    end.contacts = log_.begun;
+    end.least_contact_steps = log_.least_steps;
+    checks_.store(0, m_.cut_row_count(), end);
     std::copy(y_.begin(), y_.end(), case_.final_y);
     observers_.store(0);
     return {time_, integrator_->steps(), integrator_->rejected(),
@@ -345,12 +282,13 @@ class LocatedRun {
   const LaneCase case_;
   const Parameters<double>& p_;
   std::size_t size_;
-  std::vector<double> y_;   // accepted: q (nq), v (nv), z (nz), supplied, dissipated
+  std::vector<double> y_;   // accepted
   double time_ = 0.0;       // of y_
   std::vector<double> at_;  // the same inside a step
   std::vector<double> correction_;
   Workspace<double> w_, look_w_;
   Instant<double> now_;
+  RunChecks<double> checks_;
   LaneObservers<double> observers_;
   std::unique_ptr<AdaptiveIntegrator> integrator_;
   ContactEvents events_;
@@ -360,13 +298,9 @@ class LocatedRun {
   std::optional<Cause> cause_;
   long step_ = 0;  // of the grid
   long since_poll_ = 0, observed_ = 0, looks_ = 0;
-  long begun_ = 0, begun_in_interval_ = 0;
-  double least_steps_ = kNoContact;
+  long begun_in_interval_ = 0;
+  ContactLog<double> log_;
   double free_step_ = 0.0;
-  double least_rank_ = 1e9, greatest_rank_ = -1.0;
-  Energy<double> initial_{};
-  double initial_supplied_ = 0.0, mass_ = 0.0;
-  double drift_max_ = 0.0, residual_max_ = 0.0, scale_ = 0.0;
 };
 
 }  // namespace

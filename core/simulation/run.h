@@ -5,19 +5,15 @@
 #pragma once
 
 #include "core/base/flush_denormals.h"
-#include "core/closures/projection.h"
-#include "core/dynamics/equations_of_motion.h"
 #include "core/forces/contact_memory.h"
 #include "core/numerics/runge_kutta.h"
 #include "core/simulation/lane_observers.h"
 #include "core/simulation/pack_parameters.h"
+#include "core/simulation/run_checks.h"
+#include "core/simulation/run_state.h"
 
 namespace linkstudy {
 
-// Beyond these a run is no longer a motion: it has diverged, or its energy has left the ledger.
-inline constexpr double kFastest = 1e9;       // rad/s or m/s
-inline constexpr double kEnergyFactor = 1e3;  // times the energy that entered, plus
-inline constexpr double kEnergyFloor = 1e-3;  // J/kg of the whole linkage
 inline constexpr long kStepsBetweenPolls = 256;
 
 template <class Real, class M>
@@ -32,18 +28,18 @@ class Run {
         count_(count),
         active_((1u << count) - 1u),
         p_(pack_parameters<Real>(cases, count)),
-        size_(m.nq + m.nv + m.nz + 2),
+        size_(state_size(m)),
         observers_(cases, count),
         w_(make_workspace<Real>(m)),
         rk_(static_cast<std::size_t>(size_)),
-        now_(m_, p_, w_) {
+        now_(m_, p_, w_),
+        checks_(m_, p_) {
     if constexpr (!FixedStructure<M>) {
       y_.resize(static_cast<std::size_t>(size_));
       correction_.resize(static_cast<std::size_t>(m.nv));
       contact_steps_.resize(m.contacts.size());
     }
     for (int i = 0; i < lanes; ++i) reset(i);
-    for_bodies(m_, [&](auto b) { mass_ = mass_ + at(p_.bodies, b).mass; });
   }
 
   void run() {
@@ -52,7 +48,7 @@ class Run {
       const double t = time();
       differentiate_kept(t);
       now_.move_to(t, y_.data());
-      if (step_ == 0) start_ledger();
+      if (step_ == 0) checks_.start_ledger(now_);
       check_state();
       if (step_ % setting_.energy_stride == 0) check_energy();
       if (active_ == 0) return;
@@ -73,25 +69,9 @@ class Run {
  private:
   double time() const { return setting_.t0 + static_cast<double>(step_) * setting_.h; }
 
-  template <class W>
-  void write_slopes(const Real* q, const Real* v, const W& w, Real* slope) const {
-    for_all_stages(m_, [&](auto i) {
-      const Stage& s = at(m_.stages, i);
-      position_rates(s, q + s.q, v + s.v, slope + s.q);
-    });
-    Real* rest = slope + m_.nq;
-    for_velocities(m_, [&](auto k) { rest[k] = at(w.qdd, k); });
-    for_range(Index<0>(), bristle_count(m_), [&](auto i) { rest[m_.nv + i] = at(w.z_rate, i); });
-    rest[m_.nv + m_.nz] = w.supplied_power;
-    rest[m_.nv + m_.nz + 1] = w.dissipated_power;
-  }
-
-  template <class W>
-  void evaluate_into(W& w, double t, const Real* q, Real* slope) {
-    const Real* v = q + m_.nq;
-    for_range(Index<0>(), bristle_count(m_), [&](auto i) { at(w.z, i) = v[m_.nv + i]; });
-    evaluate(m_, p_, t, q, v, w);
-    write_slopes(q, v, w, slope);
+  void evaluate_into(Workspace<Real, M>& w, double t, const Real* y, Real* slope) {
+    evaluate_state(m_, p_, t, y, w);
+    write_slopes(m_, y, w, slope);
     redundant_ |= w.redundant;
   }
 
@@ -112,56 +92,22 @@ class Run {
   }
 
   [[gnu::flatten]] void finish_step() {
-    if (!m_.ball_q.empty()) normalize_quaternions(m_, y_.data());
-    if (!m_.projects) return;
-    update_factored_mass_matrix(m_, p_, 0.0, y_.data(), y_.data() + m_.nq, w_);
-    project(m_, p_, y_.data(), y_.data() + m_.nq, correction_.data(), w_);
+    settle_state(m_, p_, y_.data(), correction_.data(), w_);
     redundant_ |= w_.redundant;
   }
 
-  void start_ledger() {
-    const Energy<Real> e = now_.energy();
-    initial_ = e;
-    initial_supplied_ = now_.supplied();
-    now_.set_initial_energy(e.kinetic + e.potential() - now_.supplied() + now_.dissipated());
-  }
-
   void check_state() {
-    Real fastest(0.0), sum(0.0), square(0.0);
-    for_velocities(m_, [&](auto k) {
-      fastest = max(fastest, abs(at(y_, m_.nq + k)));
-      sum = sum + (abs(at(y_, m_.nq + k)) + abs(at(w_.qdd, k)));
-    });
-    for_range(Index<0>(), bristle_count(m_),
-              [&](auto i) { sum = sum + abs(at(y_, m_.nq + m_.nv + i)); });
-    for_range(Index<0>(), cut_row_count(m_),
-              [&](auto r) { square = madd(at(w_.cut_rows, r).d, at(w_.cut_rows, r).d, square); });
-    // A lost velocity is not a number, which is not below anything.
-    const auto moving = fastest < Real(kFastest) && is_finite(sum);
-    const Real drift = sqrt(square);
-    drift_max_ = select(drift > drift_max_, drift, drift_max_);
-    const auto closed = drift <= Real(setting_.drift_limit);
-    least_rank_ = select(moving && w_.kept_rows < least_rank_, w_.kept_rows, least_rank_);
-    greatest_rank_ = select(moving && w_.kept_rows > greatest_rank_, w_.kept_rows, greatest_rank_);
+    const auto moving = checks_.moves(m_, y_.data(), w_);
+    const auto closed = checks_.is_closed(m_, w_, setting_.drift_limit);
+    checks_.see_rank(moving, w_.kept_rows);
     if constexpr (FixedStructure<M>) abandon_lanes(active_ & redundant_);
     end_lanes(active_ & ~lane_bits(moving), Cause::diverged);
     end_lanes(active_ & ~lane_bits(closed), Cause::constraint_drift);
     end_lanes(active_ & w_.jammed, Cause::diverged);
   }
 
-  // The ledger must hold up to the energy that has entered: work, start, and the swing of weights.
   void check_energy() {
-    const Energy<Real> e = now_.energy();
-    const Real residual = abs(now_.residual());
-    const Real supplied = abs(now_.supplied() - initial_supplied_);
-    residual_max_ = select(residual > residual_max_, residual, residual_max_);
-    for (const Real& x : {e.kinetic, supplied + abs(now_.dissipated())}) {
-      scale_ = select(x > scale_, x, scale_);
-    }
-    const Real entered =
-        supplied + initial_.kinetic + initial_.elastic + abs(e.height - initial_.height);
-    const Real limit = madd(Real(kEnergyFactor), entered, Real(kEnergyFloor) * mass_);
-    end_lanes(active_ & ~lane_bits(residual <= limit), Cause::energy_blowup);
+    end_lanes(active_ & ~lane_bits(checks_.balances(now_)), Cause::energy_blowup);
   }
 
   bool interrupted(double t) {
@@ -187,13 +133,8 @@ class Run {
   void end_lane(int i, Cause cause) {
     LaneEnd& end = *cases_[i].end;
     end.cause = cause;
-    end.least_rank = static_cast<int>(lane(least_rank_, i));
-    end.greatest_rank = static_cast<int>(lane(greatest_rank_, i));
-    end.redundant = end.least_rank < cut_row_count(m_);
+    checks_.store(i, cut_row_count(m_), end);
     end.steps = step_;
-    end.drift_max = lane(drift_max_, i);
-    end.energy_residual_max = lane(residual_max_, i);
-    end.energy_scale = lane(scale_, i);
     end.contacts = lane(contact_log_.begun, i);
     end.least_contact_steps = lane(contact_log_.least_steps, i);
     for (int k = 0; k < size_; ++k) cases_[i].final_y[k] = lane(at(y_, k), i);
@@ -233,11 +174,10 @@ class Run {
   int count_;
   unsigned active_;         // lanes still running, one bit each
   unsigned redundant_ = 0;  // lanes whose rows were dependent or nearly
-  Real least_rank_ = Real(1e9), greatest_rank_ = Real(-1.0);  // independent rows seen
   long step_ = 0;
   Parameters<Real> p_;
   int size_;
-  Array<Real, N::size> y_;  // q (nq), v (nv), z (nz), supplied, dissipated
+  Array<Real, N::size> y_;  // core/simulation/run_state.h
   Array<Real, N::nv> correction_;
   Array<Real, N::contacts> contact_steps_;  // states in the present contact
   ContactLog<Real> contact_log_;
@@ -245,12 +185,7 @@ class Run {
   Workspace<Real, M> w_;
   RungeKutta<ClassicalRungeKutta, Real, N::size> rk_;
   Instant<Real, M> now_;
-  Energy<Real> initial_{};
-  Real initial_supplied_ = Real(0.0);
-  Real mass_ = Real(0.0);
-  Real drift_max_ = Real(0.0);
-  Real residual_max_ = Real(0.0);
-  Real scale_ = Real(0.0);
+  RunChecks<Real> checks_;
 };
 
 }  // namespace linkstudy

@@ -1,0 +1,103 @@
+// What every state of a run is held to, and what the run tells of it: velocities that are numbers
+// and below kFastest, cut joints closed to a limit, and the energy ledger, whose residual may not
+// exceed
+//   kEnergyFactor * energy that has entered (work, start, swing of weights) + kEnergyFloor * mass.
+// Checks answer with a mask, true in the lanes that pass.
+#pragma once
+
+#include "core/simulation/instant.h"
+#include "core/simulation/kernel.h"
+
+namespace linkstudy {
+
+// Beyond these a run is no longer a motion: it has diverged, or its energy has left the ledger.
+inline constexpr double kFastest = 1e9;       // rad/s or m/s
+inline constexpr double kEnergyFactor = 1e3;  // times the energy that entered, plus
+inline constexpr double kEnergyFloor = 1e-3;  // J/kg of the whole linkage
+
+inline constexpr double kAnyRank = 1e9;  // more rows than there are
+
+template <class Real>
+class RunChecks {
+ public:
+  using Mask = typename RealTraits<Real>::Mask;
+
+  template <class M>
+  RunChecks(const M& m, const Parameters<Real>& p) {
+    for_bodies(m, [&](auto b) { mass_ = mass_ + at(p.bodies, b).mass; });
+  }
+
+  // Of the state y (run_state.h) and the accelerations in w.
+  template <class M>
+  Mask moves(const M& m, const Real* y, const Workspace<Real, M>& w) const {
+    const Real* v = y + m.nq;
+    Real fastest(0.0), sum(0.0);
+    for_velocities(m, [&](auto k) {
+      fastest = max(fastest, abs(v[k]));
+      sum = sum + (abs(v[k]) + abs(at(w.qdd, k)));
+    });
+    for_range(Index<0>(), bristle_count(m), [&](auto i) { sum = sum + abs(v[m.nv + i]); });
+    // A lost velocity is not a number, which is not below anything.
+    return fastest < Real(kFastest) && is_finite(sum);
+  }
+
+  // Of the gaps in the cut rows of w.
+  template <class M>
+  Mask is_closed(const M& m, const Workspace<Real, M>& w, double limit) {
+    Real square(0.0);
+    for_range(Index<0>(), cut_row_count(m),
+              [&](auto r) { square = madd(at(w.cut_rows, r).d, at(w.cut_rows, r).d, square); });
+    const Real drift = sqrt(square);
+    drift_max_ = select(drift > drift_max_, drift, drift_max_);
+    return drift <= Real(limit);
+  }
+
+  // Independent cut rows at a state, in the lanes where they count.
+  void see_rank(const Mask& counts, Real rank) {
+    least_rank_ = select(counts && rank < least_rank_, rank, least_rank_);
+    greatest_rank_ = select(counts && rank > greatest_rank_, rank, greatest_rank_);
+  }
+
+  template <class M>
+  void start_ledger(Instant<Real, M>& now) {
+    initial_ = now.energy();
+    initial_supplied_ = now.supplied();
+    now.set_initial_energy(initial_.kinetic + initial_.potential() - now.supplied() +
+                           now.dissipated());
+  }
+
+  template <class M>
+  Mask balances(Instant<Real, M>& now) {
+    const Energy<Real> e = now.energy();
+    const Real residual = abs(now.residual());
+    const Real supplied = abs(now.supplied() - initial_supplied_);
+    residual_max_ = select(residual > residual_max_, residual, residual_max_);
+    for (const Real& x : {e.kinetic, supplied + abs(now.dissipated())}) {
+      scale_ = select(x > scale_, x, scale_);
+    }
+    const Real entered =
+        supplied + initial_.kinetic + initial_.elastic + abs(e.height - initial_.height);
+    return residual <= madd(Real(kEnergyFactor), entered, Real(kEnergyFloor) * mass_);
+  }
+
+  // Hands over what lane i has shown so far; `rows` is the number of cut rows.
+  void store(int i, int rows, LaneEnd& end) const {
+    end.least_rank = static_cast<int>(lane(least_rank_, i));
+    end.greatest_rank = static_cast<int>(lane(greatest_rank_, i));
+    end.redundant = end.least_rank < rows;
+    end.drift_max = lane(drift_max_, i);
+    end.energy_residual_max = lane(residual_max_, i);
+    end.energy_scale = lane(scale_, i);
+  }
+
+ private:
+  Real least_rank_ = Real(kAnyRank), greatest_rank_ = Real(-1.0);
+  Energy<Real> initial_{};
+  Real initial_supplied_ = Real(0.0);
+  Real mass_ = Real(0.0);
+  Real drift_max_ = Real(0.0);
+  Real residual_max_ = Real(0.0);
+  Real scale_ = Real(0.0);
+};
+
+}  // namespace linkstudy
