@@ -103,6 +103,7 @@ TEST(FixedKernels, Whole_runs_have_the_bits_of_the_general_step_loop) {
   for (const Specialised& s : specialised()) {
     ModelInput input = read_config(s.file, s.set);
     input.options.end_time = std::min(3.0, 6e4 * input.options.step);
+    input.linkage.points = {{"tip", input.linkage.links.back().name, Eigen::Vector3d::Ones()}};
     const Preparation p = prepare(input.linkage, input.options);
     ASSERT_EQ(p.cause, Cause::ok) << p.message;
     for (const SimdLevel& level : testing::simd_levels()) {
