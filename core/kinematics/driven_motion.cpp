@@ -1,6 +1,6 @@
 #include "core/kinematics/driven_motion.h"
 
-#include <Eigen/SVD>
+#include <Eigen/Dense>
 #include <algorithm>
 
 namespace linkstudy {
@@ -169,6 +169,16 @@ double DrivenLinkage::quality(const State<double>& s) const {
   if (rank_ == 0) return 1.0;
   const VectorXd sizes = Svd(dependent_jacobian(s)).singularValues();
   return sizes[rank_ - 1] / sizes[0];
+}
+
+int DrivenLinkage::branch(const State<double>& s) const {
+  if (rank_ == 0 || undetermined() > 0 || quality(s) < kSingularQuality) return 0;
+  const MatrixXd m = dependent_jacobian(s);
+  const Eigen::ColPivHouseholderQR<MatrixXd> qr(m.transpose());
+  std::vector<int> rows(qr.colsPermutation().indices().begin(),
+                        qr.colsPermutation().indices().begin() + rank_);
+  std::sort(rows.begin(), rows.end());
+  return take_columns(m.transpose(), rows).determinant() > 0.0 ? 1 : -1;
 }
 
 double DrivenLinkage::residual(const State<double>& s) const {

@@ -92,6 +92,11 @@ class DrivenLinkage {
   // Singular values below this part of the largest count as zero.
   DriveRanks ranks(const State<double>& s, double tolerance) const;
 
+  // Which of the closed poses at these drives this is: the sign of the determinant of M, of rows
+  // that are independent where some are redundant; 0 at singular poses, and where coordinates are
+  // not determined.
+  int branch(const State<double>& s) const;
+
   // Joints that can move while the drives rest, judged by the weakest direction of M.
   std::vector<std::string> loose_joints(const State<double>& s) const;
 

@@ -153,6 +153,10 @@ std::string course_text(const KinematicsResult& result) {
   for (std::size_t i = 0; i < drives.size(); ++i) {
     text += summary_line("drive", drive_text(drives[i], path.courses()[i], path.duration()));
   }
+  const std::string branch = result.branch == 0 ? "" : fmt::format(", branch {:+d}", result.branch);
+  text += summary_line("drive rank",
+                       fmt::format("h = {}, h_R = {} of {} dependent coordinates{}", result.ranks.h,
+                                   result.ranks.h_r, result.ranks.dependent, branch));
   text += notes_text(*result.driven);
   if (!cycle.is_reached) text += summary_line("course", "its begin cannot be reached");
   if (cycle.is_reached) {
@@ -288,12 +292,15 @@ std::string kinematics_json(const KinematicsResult& result) {
                {"singular_state", name_of(r.state)},
                {"singular_positions", singular_json(result)},
                {"basic_loops", loops_json(result)},
-               {"branch", result.assembly.branch},
                {"closed", result.assembly.closed},
                {"verdict", verdict(result)}};
   if (result.driven) {
     json["drive"] = result.course->drives.front().name;
     json["drives"] = drives_json(result);
+    json["dependent"] = result.ranks.dependent;
+    json["h"] = result.ranks.h;
+    json["h_R"] = result.ranks.h_r;
+    json["branch"] = result.branch;
     json["positions"] = result.cycle.poses.size();
     json["complete"] = result.cycle.is_complete;
   }

@@ -27,7 +27,7 @@ LoopResult analyse_loop(const Model& closed, const ClosureScale& scale, const Ba
     return dependent_columns(equations.jacobian(s, equations.cut_position(s)), result,
                              closed.mechanism.nv);
   };
-  LoopResult found{loop, choose_proper_elements(dependent(start)), 0.0};
+  LoopResult found{loop, choose_proper_elements(dependent(start))};
   found.least_conditioning = found.proper.conditioning;
   for (const DrivenPose& pose : result.cycle.poses) {
     const double here = conditioning_of(dependent(pose.s), found.proper.elements);
@@ -49,6 +49,8 @@ KinematicsResult analyse_kinematics(const CommandLine& line, const KinematicsOpt
   if (!result.assembly.closed) return result;
   if (result.mobility.mobility > 0 && result.course) {
     result.driven.emplace(closed, start, result.mobility, result.course->drives);
+    result.ranks = result.driven->ranks(start, kMobilityTolerance);
+    result.branch = result.driven->branch(start);
     result.cycle = follow_drives(*result.driven, start, result.mobility, result.course->path,
                                  result.course->options);
   }

@@ -22,6 +22,8 @@ struct KinematicsResult {
   MobilityReport mobility;
   std::optional<KinematicsCourse> course;  // nothing where there is nothing to drive
   std::optional<DrivenLinkage> driven;
+  DriveRanks ranks;  // at the start
+  int branch = 0;    // there
   DriveCycle cycle;
   std::vector<LoopResult> loops;
 };

@@ -90,12 +90,24 @@ double largest(F f, double low, double high) {
 
 TEST_F(Kinematics, Tells_the_mobility_of_every_model_in_configs) {
   const std::vector<std::tuple<std::string, int, int, int>> known = {
-      {"bennett", 1, -2, 3},       {"rssr", 2, 2, 0},
-      {"rccc", 1, 1, 0},           {"slider_crank", 1, -2, 3},
-      {"stewart", 6, 6, 0},        {"four_bar", 1, -2, 3},
-      {"n_four_bar", 1, -5, 6},    {"planar_two_loop", 1, -5, 6},
-      {"pendulum", 1, 1, 0},       {"rsrrp", 1, 1, 0},
-      {"rsrrp_revolute", 1, 1, 0}, {"spatial_slider_crank", 1, 1, 0}};
+      {"bennett", 1, -2, 3},
+      {"rssr", 2, 2, 0},
+      {"rccc", 1, 1, 0},
+      {"slider_crank", 1, -2, 3},
+      {"stewart", 6, 6, 0},
+      {"four_bar", 1, -2, 3},
+      {"n_four_bar", 1, -5, 6},
+      {"planar_two_loop", 1, -5, 6},
+      {"pendulum", 1, 1, 0},
+      {"rsrrp", 1, 1, 0},
+      {"rsrrp_revolute", 1, 1, 0},
+      {"spatial_slider_crank", 1, 1, 0},
+      {"rsup", 1, 1, 0},
+      {"rsup_flexible", 1, 1, 0},
+      {"rsup_clearance_planar", 1, 1, 0},
+      {"rsup_clearance_spatial", 1, 1, 0},
+      {"rsup_clearance_flexible", 1, 1, 0},
+      {"flores_slider_crank", 1, -2, 3}};
   for (const auto& [name, mobility, kutzbach, redundant] : known) {
     const json j = object(name);
     EXPECT_EQ(j["mobility"], mobility) << name;
@@ -104,8 +116,8 @@ TEST_F(Kinematics, Tells_the_mobility_of_every_model_in_configs) {
     EXPECT_EQ(j["singular_state"], redundant > 0 ? "permanent" : "none") << name;
     EXPECT_TRUE(j["closed"]) << name;
     EXPECT_TRUE(j["complete"]) << name;
-    for (const char* key :
-         {"redundant_joints", "idle_freedoms", "loops", "rank", "rank_gap", "singular_positions"}) {
+    for (const char* key : {"redundant_joints", "idle_freedoms", "loops", "rank", "rank_gap",
+                            "singular_positions", "basic_loops", "h", "h_R", "dependent"}) {
       EXPECT_TRUE(j.contains(key)) << name << " " << key;
     }
   }
@@ -186,6 +198,71 @@ TEST_F(Kinematics, Of_two_loops_locks_at_both_ends_of_the_lever) {
   EXPECT_NEAR(sinking["singular_positions"][0]["position"].get<double>(), down, 1e-9);
 }
 
+// The pin between rod and rocker turns by the difference of the two.
+TEST_F(Kinematics, Has_the_joints_that_close_loops_in_its_table) {
+  const Rows rows = read_rows(analyse("four_bar", "--speed 3 --csv -").out);
+  ASSERT_EQ(rows.values.size(), 73u);
+  const double first = rows.at(0, "closure.C.q") - rows.at(0, "joint.D.q") +
+                       rows.at(0, "joint.A.q") + rows.at(0, "joint.B.q");
+  for (std::size_t i = 0; i < 73; ++i) {
+    for (const char* quantity : {"q", "v", "a"}) {
+      const auto at = [&](const std::string& joint) { return rows.at(i, joint + "." + quantity); };
+      const double apart = at("joint.D") - at("joint.A") - at("joint.B");
+      EXPECT_NEAR(at("closure.C"), apart + (*quantity == 'q' ? first : 0.0), 1e-10);
+    }
+  }
+}
+
+TEST_F(Kinematics, Reports_the_loops_and_the_ranks) {
+  const json j = object("rsrrp");
+  ASSERT_EQ(j["basic_loops"].size(), 1u);
+  EXPECT_EQ(j["basic_loops"][0]["cut"], "closure.S");
+  EXPECT_THAT(j["basic_loops"][0]["joints"],
+              ElementsAre("joint.A", "closure.S", "joint.R", "joint.Q", "joint.P"));
+  EXPECT_EQ(j["basic_loops"][0]["elements"].size(), 6u);
+  EXPECT_EQ(j["h"], 3);
+  EXPECT_EQ(j["h_R"], 3);
+  EXPECT_EQ(j["dependent"], 3);
+  EXPECT_THAT(analyse("rsrrp").out, HasSubstr("cut at closure.S; proper equations a"));
+}
+
+// Open and crossed four-bar: the same crank, two places of the pin.
+TEST_F(Kinematics, Tells_the_branches_of_a_four_bar_apart) {
+  const json crossed = object(
+      "four_bar", "-s 'joint.B.initial.position=[-2.5]' -s 'joint.D.initial.position=[-2.0]'");
+  const json open = object("four_bar");
+  EXPECT_EQ(open["branch"].get<int>() * crossed["branch"].get<int>(), -1);
+}
+
+TEST_F(Kinematics, Drives_the_joints_of_the_model_file) {
+  const json j = object("stewart");
+  EXPECT_EQ(j["drives"].size(), 6u);
+  EXPECT_TRUE(j["complete"]);
+  const Rows rows = read_rows(analyse("stewart", "--positions 5 --csv -").out);
+  ASSERT_EQ(rows.values.size(), 5u);
+  EXPECT_EQ(rows.at(0, "joint.P3.v"), 0.0);  // smooth
+  EXPECT_NEAR(rows.at(4, "joint.P3.v"), 0.0, 1e-15);
+  EXPECT_GT(rows.at(2, "joint.P3.v"), 0.0);
+}
+
+TEST_F(Kinematics, Drives_several_joints_of_the_command_line) {
+  const Ended ended = analyse("stewart",
+                              "--drive 'joint.P1=1.25:1300 mm' --drive joint.P2 --drive joint.P3 "
+                              "--drive joint.P4 --drive joint.P5 --drive joint.P6 --csv -");
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  const Rows rows = read_rows(ended.out);
+  ASSERT_EQ(rows.values.size(), 73u);
+  EXPECT_NEAR(rows.at(0, "joint.P1.q"), 1.25, 1e-15);
+  EXPECT_NEAR(rows.at(72, "joint.P1.q"), 1.3, 1e-15);
+  EXPECT_NEAR(rows.at(72, "time"), 0.05, 1e-15);
+  EXPECT_EQ(rows.at(72, "joint.P2.q"), rows.at(0, "joint.P2.q"));
+}
+
+TEST_F(Kinematics, Says_that_drives_contradict_each_other) {
+  const std::string text = analyse("four_bar", "--drive joint.A=1:2 --drive joint.D").out;
+  EXPECT_THAT(text, AllOf(HasSubstr("contradict each other"), HasSubstr("h_R = 2 of 1")));
+}
+
 TEST_F(Kinematics, Leaves_velocities_out_where_branches_cross) {
   const Ended ended = analyse("n_four_bar", "--csv -");
   const Rows rows = read_rows(ended.out);
@@ -214,6 +291,13 @@ TEST_F(Kinematics, Refuses_wrong_options) {
       {"--from x", "--from must be a number in rad"},
       {"--positions 1", "--positions must be from 2"},
       {"--csv nowhere/x.csv", "there is no directory"},
+      {"--drive joint.A --drive joint.A=0:1", "joint.A is given twice"},
+      {"--drive joint.A=0", "a range is written FROM:TO"},
+      {"--drive joint.A=0:1m", "TO must be a number in rad"},
+      {"--drive joint.A --drive joint.B --to 1", "--to is for one drive, there are 2"},
+      {"--drive joint.A --drive joint.B --speed 1", "--speed is for one drive"},
+      {"--speed 0", "--speed must not be zero"},
+      {"--h5 nowhere/x.h5", "there is no directory"},
       {"--csv - --json", "both want standard output"}};
   for (const auto& [options, message] : wrong) {
     const Ended ended = analyse("bennett", options);

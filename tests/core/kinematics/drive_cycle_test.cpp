@@ -157,15 +157,37 @@ TEST(DriveCycle, Of_a_bennett_linkage_follows_the_closed_form) {
   }
 }
 
+// Derivatives of sixth order.
+template <class F>
+double slope(F f, double x) {
+  const double h = 4e-3;
+  return (45 * (f(x + h) - f(x - h)) - 9 * (f(x + 2 * h) - f(x - 2 * h)) +
+          (f(x + 3 * h) - f(x - 3 * h))) /
+         (60 * h);
+}
+template <class F>
+double curvature(F f, double x) {
+  const double h = 1.5e-2;
+  return (-490 * f(x) + 270 * (f(x + h) + f(x - h)) - 27 * (f(x + 2 * h) + f(x - 2 * h)) +
+          2 * (f(x + 3 * h) + f(x - 3 * h))) /
+         (180 * h * h);
+}
+
 TEST(DriveCycle, Of_RSRRP_follows_the_closed_form) {
+  const auto slide = [](double crank) { return rsrrp_pose(crank).d; };
+  const auto swing = [](double crank) { return rsrrp_pose(crank).psi22; };
   for (const bool cut_at_revolute : {false, true}) {
     const Driven linkage(cut_at_revolute ? rsrrp_revolute() : rsrrp());
     const DriveCycle cycle = linkage.full_turn();
     ASSERT_TRUE(cycle.is_complete);
     for (const DrivenPose& pose : cycle.poses) {
-      const RsrrpPose p = rsrrp_pose(linkage.q(pose, "A"));
-      EXPECT_NEAR(linkage.q(pose, "P"), p.d, kExact);
-      EXPECT_NEAR(linkage.q(pose, "Q"), p.psi22, kExact);
+      const double crank = linkage.q(pose, "A");
+      EXPECT_NEAR(linkage.q(pose, "P"), slide(crank), kExact);
+      EXPECT_NEAR(linkage.q(pose, "Q"), swing(crank), kExact);
+      EXPECT_NEAR(linkage.v(pose, 1.0, "P"), slope(slide, crank), kExact);
+      EXPECT_NEAR(linkage.v(pose, 1.0, "Q"), slope(swing, crank), kExact);
+      EXPECT_NEAR(linkage.a(pose, 1.0, "P"), curvature(slide, crank), kExact);
+      EXPECT_NEAR(linkage.a(pose, 1.0, "Q"), curvature(swing, crank), kExact);
     }
   }
 }
