@@ -1,6 +1,6 @@
 #include "core/numerics/rank.h"
 
-#include <Eigen/SVD>
+#include "core/numerics/dense_instances.h"
 
 namespace linkstudy {
 

@@ -1,0 +1,3 @@
+#include "core/numerics/dense_instances.h"
+
+LINKSTUDY_DENSE_INSTANCES()
