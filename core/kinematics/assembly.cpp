@@ -7,6 +7,7 @@
 #include <random>
 
 #include "core/kinematics/closure_jacobian.h"
+#include "core/kinematics/scaled_closures.h"
 #include "core/numerics/rank.h"
 
 namespace linkstudy {
@@ -123,13 +124,23 @@ std::vector<std::size_t> flipped_closures(const Model& model, const State<double
   return flipped;
 }
 
-// The closure rows and, for every pair of axes that is to be aligned, the difference of the two:
+// Rows in metres over the extent of the mechanism: what counts as closed does not depend on its
+// size.
+ClosureEquations scaled_equations(const Model& model, const ClosureScale& scale,
+                                  const State<double>& s) {
+  ClosureEquations e = compute_closure_equations(model.mechanism, model.parameters, s);
+  e.residual = scale.row.cwiseProduct(e.residual);
+  e.jacobian = scale.row.asDiagonal() * e.jacobian;
+  return e;
+}
+
+// The scaled rows and, for every pair of axes that is to be aligned, the difference of the two:
 // that one vanishes for the same sense only.
-VectorXd aligning_residual(const Model& model, const State<double>& s) {
+VectorXd aligning_residual(const Model& model, const ClosureScale& scale, const State<double>& s) {
   const Mechanism& m = model.mechanism;
   Workspace<double> w = make_workspace<double>(m);
   update_kinematics(m, model.parameters, s.q.data(), s.v.data(), w);
-  const VectorXd rows = compute_closure_equations(m, model.parameters, s).residual;
+  const VectorXd rows = scaled_equations(model, scale, s).residual;
   std::vector<double> r(rows.begin(), rows.end());
   for (std::size_t i = 0; i < m.closures.size(); ++i) {
     for (const AxisPair& p : aligned_axes(model, w, i)) {
@@ -139,15 +150,16 @@ VectorXd aligning_residual(const Model& model, const State<double>& s) {
   return Eigen::Map<const VectorXd>(r.data(), static_cast<Eigen::Index>(r.size()));
 }
 
-ClosureEquations aligning_equations(const Model& model, const State<double>& s) {
+ClosureEquations aligning_equations(const Model& model, const ClosureScale& scale,
+                                    const State<double>& s) {
   constexpr double h = 1e-6;  // rad or m: steps need no exact Jacobian
   const Mechanism& m = model.mechanism;
-  ClosureEquations e{aligning_residual(model, s), {}};
+  ClosureEquations e{aligning_residual(model, scale, s), {}};
   e.jacobian.resize(e.residual.size(), m.nv);
   for (int k = 0; k < m.nv; ++k) {
     const VectorXd dq = h * VectorXd::Unit(m.nv, k);
-    e.jacobian.col(k) = (aligning_residual(model, displaced(m, s, dq)) -
-                         aligning_residual(model, displaced(m, s, -dq))) /
+    e.jacobian.col(k) = (aligning_residual(model, scale, displaced(m, s, dq)) -
+                         aligning_residual(model, scale, displaced(m, s, -dq))) /
                         (2.0 * h);
   }
   return e;
@@ -164,16 +176,15 @@ bool is_better(const Model& model, const Closing& a, const Closing& b) {
 }
 
 // Closes the loops from s; from there with axes aligned first, if they end up opposite.
-Closing close_loops(const Model& model, const std::vector<int>& free, const State<double>& s) {
+Closing close_loops(const Model& model, const ClosureScale& scale, const std::vector<int>& free,
+                    const State<double>& s) {
   const Mechanism& m = model.mechanism;
-  const auto rows = [&](const State<double>& x) {
-    return compute_closure_equations(m, model.parameters, x);
-  };
+  const auto rows = [&](const State<double>& x) { return scaled_equations(model, scale, x); };
   Closing direct = solve(m, rows, free, s);
   if (direct.residual > kClosedTolerance || flipped_closures(model, direct.state).empty()) {
     return direct;
   }
-  const auto aligning = [&](const State<double>& x) { return aligning_equations(model, x); };
+  const auto aligning = [&](const State<double>& x) { return aligning_equations(model, scale, x); };
   const Closing turned = solve(m, aligning, free, s);
   Closing aligned = solve(m, rows, free, turned.state);
   aligned.iterations += turned.iterations + direct.iterations;
@@ -251,15 +262,15 @@ void assemble_velocities(const Model& model, const MatrixXd& jacobian, State<dou
 
 // From the given start, then by restarts until a pose is closed with aligned axes. `restarts` of
 // the report says which one led to the returned pose, or how many were tried in vain.
-Closing search(const Model& model, const std::vector<int>& free, const State<double>& given,
-               AssemblyReport& report) {
-  Closing best = close_loops(model, free, given);
+Closing search(const Model& model, const ClosureScale& scale, const std::vector<int>& free,
+               const State<double>& given, AssemblyReport& report) {
+  Closing best = close_loops(model, scale, free, given);
   report.iterations = best.iterations;
   const auto is_done = [&] {
     return best.residual <= kClosedTolerance && flipped_closures(model, best.state).empty();
   };
   for (int i = 1; i <= kMaxRestarts && !free.empty() && !is_done(); ++i) {
-    const Closing next = close_loops(model, free, perturbed(model, free, given, i));
+    const Closing next = close_loops(model, scale, free, perturbed(model, free, given, i));
     report.iterations += next.iterations;
     const bool is_open = best.residual > kClosedTolerance;
     if (is_open) report.restarts = i;
@@ -296,11 +307,9 @@ ClosureEquations compute_closure_equations(const Mechanism& m, const Parameters<
   return e;
 }
 
-double close_from(const Model& closed, State<double>& s) {
+double close_from(const Model& closed, const ClosureScale& scale, State<double>& s) {
   const Mechanism& m = closed.mechanism;
-  const auto rows = [&](const State<double>& x) {
-    return compute_closure_equations(m, closed.parameters, x);
-  };
+  const auto rows = [&](const State<double>& x) { return scaled_equations(closed, scale, x); };
   std::vector<int> all(static_cast<std::size_t>(m.nv));
   std::iota(all.begin(), all.end(), 0);
   const Closing closing = solve(m, rows, all, s);
@@ -313,17 +322,20 @@ AssemblyReport assemble_start(const Model& closed, State<double>& start) {
   AssemblyReport report;
   normalize_quaternions(m, start.q.data());
   const State<double> given = start;
+  const ClosureScale scale = find_closure_scale(closed, start);
+  double scaled = scaled_equations(closed, scale, start).residual.norm();
   ClosureEquations e = compute_closure_equations(m, closed.parameters, start);
   report.residual_given = report.residual = e.residual.norm();
-  if (report.residual > kClosedTolerance) {
+  if (scaled > kClosedTolerance) {
     const std::vector<int> free = free_velocities(closed);
-    const Closing best = search(closed, free, given, report);
-    if (best.residual < report.residual) start.q = best.state.q;
+    const Closing best = search(closed, scale, free, given, report);
+    if (best.residual < scaled) start.q = best.state.q;
+    scaled = std::min(scaled, best.residual);
     e = compute_closure_equations(m, closed.parameters, start);
     report.residual = e.residual.norm();
     report.displacement = distance(m, given, start);
   }
-  report.closed = report.residual <= kClosedTolerance;
+  report.closed = scaled <= kClosedTolerance;
   for (const std::size_t i : flipped_closures(closed, start)) {
     report.flipped.push_back(m.closure_names[i]);
   }

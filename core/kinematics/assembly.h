@@ -38,7 +38,8 @@ struct AssemblyReport {
   std::vector<std::string> flipped;  // closures whose axes are opposite at the returned start
 };
 
-// Residual below which a start counts as closed, m and 1.
+// Norm of r, rows in metres over the extent of the mechanism (scaled_closures.h), below which a
+// start counts as closed.
 inline constexpr double kClosedTolerance = 1e-9;
 
 // Singular values of the closure Jacobian below this part of the largest count as zero.
@@ -49,10 +50,6 @@ Model compile_closed(const Linkage& linkage);
 
 // Moves `start` (positions and velocities) of the compiled closed linkage.
 AssemblyReport assemble_start(const Model& closed, State<double>& start);
-
-// Moves all joints from `s` to a closed pose near by, without restarts, held joints too; returns
-// the norm of r that is left.
-double close_from(const Model& closed, State<double>& s);
 
 // Residual r (nc) and Jacobian (nc, nv) of the cut rows at (q, v).
 struct ClosureEquations {

@@ -3,7 +3,8 @@
 //   linear          s
 //   smooth          3 s^2 - 2 s^3                  at rest at both ends
 //   polynomial_345  10 s^3 - 15 s^4 + 6 s^5        at rest, without acceleration at both ends
-//   table           a cubic spline through (times, positions)
+//   table           the natural cubic spline through (times, positions): no jump of acceleration,
+//                   which is zero at both ends; it may swing beyond points that are far apart
 // Units: s, rad or m.
 #pragma once
 

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
+
+#include "core/kinematics/pose_curve.h"
 
 namespace linkstudy {
 namespace {
@@ -16,17 +19,28 @@ constexpr double kTurned = 0.3;          // largest change of the rates against 
 constexpr double kRunaway = 300.0;  // of dependent to driven rates where a stuck drive is locked
 constexpr double kSuspect = 0.1;    // quality below which a minimum is looked into
 constexpr double kCrossing = 1e-5;  // quality of a minimum that counts as zero
-constexpr double kSamePosition = 1e-6;  // of the drives, rad and extents
+constexpr double kApproach = 0.5;   // of the way to where the quality would be zero
+constexpr double kNearest = 1e-5;   // steps near there, rad and extents
+constexpr double kSamePosition = 1e-4;  // of all coordinates, rad and extents
+constexpr double kArrived = 1e-9;       // of the drives at a lock that ends the course
 constexpr double kGolden = 0.6180339887498949;
 
-// A closed pose on the course. `continued` are the rates there if the pose is singular.
+// A closed pose on the course.
 struct Place {
   double time;
   State<double> s;
   double quality;
   bool is_singular;
-  DrivenRates continued;
+  DrivenRates continued;  // rates there if it is singular
+  VectorXd leave;         // at a lock: the sense in which the curve of poses is left; else empty
 };
+
+// What is left of rates where nothing moves yet.
+DrivenRates no_rates(const DrivenLinkage& linkage) {
+  const auto n = static_cast<Eigen::Index>(linkage.drives().size());
+  const int nv = linkage.model().mechanism.nv;
+  return {VectorXd::Zero(n), VectorXd::Zero(nv), VectorXd::Zero(nv), 0.0, true};
+}
 
 // Rates for other rates of the drives, as far as these have the direction of the given ones.
 DrivenRates rescaled(const DrivenRates& r, const VectorXd& rate, const VectorXd& second_rate) {
@@ -63,24 +77,26 @@ class Follower {
   void begin(const Place& start) {
     track_ = {start};
     stride_ = kLongestStep;
-    if (start.is_singular) note(SingularKind::branch, start.time, start.s);
+    see_quality();
+    if (start.is_singular) note(start.time, start.s);
   }
   const Place& place() const { return track_.back(); }
+  const Transmission& worst() const { return worst_; }
 
-  // False if the drives are locked before `target`.
+  // False if the drives cannot get to `target`.
   bool advance(double target) {
     while (place().time != target) {
-      if (!step_towards(target) && !jump_towards(target)) {
-        note_lock(target);
-        return false;
-      }
+      const bool leaves = place().leave.size() > 0;
+      const bool is_taken =
+          leaves ? leave_lock(target) : step_towards(target) || jump_towards(target);
+      if (!is_taken) return stop_at_lock(target);
     }
     return true;
   }
 
   // A pose that ends the course counts as singular without a step beyond it.
   void end() {
-    if (place().is_singular) note(SingularKind::branch, place().time, place().s);
+    if (place().quality < kCrossing) note(place().time, place().s);
   }
 
   DrivenPose pose() const {
@@ -117,8 +133,9 @@ class Follower {
     for (;;) {
       Step step{h, motion_over(h)};
       const double norm = step.motion.first.norm();
-      if (!(norm > length * (1.0 + 1e-9))) return step;
-      h *= std::max(length / norm, 0.01);
+      const bool is_short = step.motion.drive.norm() < kShortestStep;
+      if (norm <= length * (1.0 + 1e-9) || is_short) return step;
+      h *= norm < 100.0 * length ? length / norm : 0.01;
     }
   }
 
@@ -136,18 +153,33 @@ class Follower {
     const DrivenRates b = linkage_.rates(s, r.drive, VectorXd::Zero(r.drive.size()));
     const VectorXd expected = r.first + r.second;
     if (b.is_singular) {
-      return Place{time, s, b.quality, true, {r.drive, expected, r.second}};
+      return Place{time, s, b.quality, true, {r.drive, expected, r.second}, {}};
     }
     const double larger = std::max(r.first.norm(), b.first.norm());
     const bool turns_off = (b.first - expected).norm() > kTurned * larger;
     if (turns_off && !is_lax(a)) return std::nullopt;
-    return Place{time, s, b.quality, false, {}};
+    return Place{time, s, b.quality, false, {}, {}};
   }
 
   // After a pose whose rates are only continued, those that follow may differ a little more.
   static bool is_lax(const Place& a) { return a.is_singular && a.continued.second.isZero(); }
 
+  // Towards a singular position steps shorten as its distance does: a branch is crossed, and a gap
+  // between branches that only nearly meet is followed round, not leapt over.
+  double longest_step_here() const {
+    const Place& b = place();
+    if (b.is_singular) return kLongestStep;
+    if (track_.size() < 2) return std::max(0.5 * kApproach * b.quality, kNearest);
+    const Place& a = track_[track_.size() - 2];
+    const Mechanism& m = linkage_.model().mechanism;
+    const double apart = scaled_difference(m, linkage_.scale(), a.s, b.s).norm();
+    const double fall = a.quality - b.quality;
+    if (!(fall > 0.0)) return kLongestStep;
+    return std::max(kApproach * b.quality * apart / fall, kNearest);
+  }
+
   bool step_towards(double target) {
+    stride_ = std::min(stride_, longest_step_here());
     for (double length = stride_;; length *= 0.5) {
       const Step step = choose_step(length, target);
       if (step.motion.drive.norm() < kShortestStep) return rest(step, target);
@@ -172,9 +204,9 @@ class Follower {
   // Over a crossing of branches that stops small steps.
   bool jump_towards(double target) {
     stride_ = kLongestStep;
-    const Step least = choose_step(0.01, target);
+    const Step least = choose_step(kNearest, target);
     if (least.motion.first.norm() > kRunaway * least.motion.drive.norm()) return false;
-    for (const double length : {0.01, 0.02, 0.05}) {
+    for (const double length : {3e-5, 3e-4, 3e-3}) {
       const Step step = choose_step(length, target);
       std::optional<Place> next = try_step(step);
       if (!next || next->is_singular) continue;
@@ -187,6 +219,7 @@ class Follower {
   void add(Place next, const Step& step, double target) {
     if (step.h == target - place().time) next.time = target;
     track_.push_back(std::move(next));
+    see_quality();
     if (track_.size() < 3) return;
     if (track_.size() > 3) track_.erase(track_.begin());
     const bool is_lowest =
@@ -226,24 +259,79 @@ class Follower {
       }
     }
     const double x = f1 < f2 ? x1 : x2;
-    if (std::min(f1, f2) < kCrossing) note(SingularKind::branch, a.time + x * h, between(x));
+    if (std::min(f1, f2) < kCrossing) note(a.time + x * h, between(x));
   }
 
-  void note_lock(double target) {
-    const DriveMotion motion = path_.at(place().time);
-    VectorXd direction = linkage_.without_dimensions(motion.rate);
-    if (direction.isZero()) {
-      direction = linkage_.without_dimensions(path_.position(target) - motion.position);
+  // Where the drives go from here, a unit vector.
+  VectorXd direction_to(double target) const {
+    const double left = target - place().time;
+    const double h = std::copysign(std::min(std::abs(left), path_.longest_step()), left);
+    const VectorXd way = path_.position(place().time + h) - path_.position(place().time);
+    return linkage_.without_dimensions(way).normalized();
+  }
+
+  // True where the lock is the target itself.
+  bool stop_at_lock(double target) {
+    const VectorXd direction = direction_to(target);
+    const auto turning = find_turning_pose(linkage_, place().s, direction);
+    note(place().time, turning.value_or(place().s));
+    if (!turning) return false;
+    const VectorXd missing = path_.position(target) - linkage_.drive_position(*turning);
+    if (linkage_.without_dimensions(missing).norm() > kArrived) return false;
+    const PoseCurve curve(linkage_, direction);
+    const VectorXd onwards = curve.tangent(place().s, curve.rising());
+    const VectorXd back = -curve.tangent(*turning, onwards);
+    track_.push_back(
+        {target, *turning, linkage_.quality(*turning), true, no_rates(linkage_), back});
+    see_quality();
+    return true;
+  }
+
+  // Away from a lock, along the curve of closed poses; the drives then are where the path has them.
+  bool leave_lock(double target) {
+    const VectorXd direction = direction_to(target);
+    const PoseCurve curve(linkage_, direction);
+    const VectorXd tangent = curve.tangent(place().s, place().leave);
+    for (double length = 0.6 * kLongestStep; length > kShortestStep; length *= 0.5) {
+      const auto reached = curve.at(place().s, length * tangent);
+      const double way = reached ? curve.way_between(place().s, *reached) : -1.0;
+      if (way <= 0.0) return false;
+      const double time = time_of(way, direction, target);
+      State<double> s =
+          linkage_.moved(*reached, VectorXd::Zero(reached->v.size()), path_.position(time));
+      if (std::isnan(time) || !linkage_.close(s)) continue;
+      track_.push_back({time, s, linkage_.quality(s), false, {}, {}});
+      stride_ = length;
+      return true;
     }
-    if (target < place().time) direction = -direction;
-    const auto turning = find_turning_pose(linkage_, place().s, direction.normalized());
-    note(SingularKind::lock, place().time, turning.value_or(place().s));
+    return false;
   }
 
-  void note(SingularKind kind, double time, const State<double>& s) {
-    SingularPosition p = describe_singular(linkage_, kind, time, s);
+  // When the drives have gone a way along a direction; NaN if that is beyond `target`.
+  double time_of(double way, const VectorXd& direction, double target) const {
+    const VectorXd from = path_.position(place().time);
+    const auto left = [&](double time) {
+      return linkage_.without_dimensions(path_.position(time) - from).dot(direction) - way;
+    };
+    double low = place().time, high = target;
+    if (left(high) < 0.0) return std::numeric_limits<double>::quiet_NaN();
+    for (int i = 0; i < 100; ++i) {
+      const double middle = 0.5 * (low + high);
+      (left(middle) < 0.0 ? low : high) = middle;
+    }
+    return high;
+  }
+
+  void see_quality() {
+    if (place().quality > worst_.quality) return;
+    worst_ = {place().quality, place().time, linkage_.drive_position(place().s)};
+  }
+
+  void note(double time, const State<double>& s) {
+    SingularPosition p = describe_singular(linkage_, time, s);
     const auto is_same = [&](const SingularPosition& known) {
-      return linkage_.without_dimensions(known.drive - p.drive).norm() < kSamePosition;
+      const Mechanism& m = linkage_.model().mechanism;
+      return scaled_difference(m, linkage_.scale(), known.s, s).norm() < kSamePosition;
     };
     if (std::none_of(singular_.begin(), singular_.end(), is_same)) {
       singular_.push_back(std::move(p));
@@ -253,7 +341,8 @@ class Follower {
   const DrivenLinkage& linkage_;
   const DrivePath& path_;
   std::vector<SingularPosition>& singular_;
-  std::vector<Place> track_;      // the last three
+  std::vector<Place> track_;  // the last three
+  Transmission worst_{1.0, 0.0, {}};
   double stride_ = kLongestStep;  // norm of the rates over the next step
 };
 
@@ -283,8 +372,14 @@ Place place_at(const DrivenLinkage& linkage, const State<double>& start,
   if (direction.isZero()) direction = linkage.without_dimensions(path.at(0.0).rate);
   if (direction.isZero()) direction.setOnes();
   const double quality = linkage.quality(start);
-  if (quality >= kSingularQuality) return {0.0, start, quality, false, {}};
-  return {0.0, start, quality, true, continue_from_neighbours(linkage, mobility, start, direction)};
+  if (quality >= kSingularQuality) return {0.0, start, quality, false, {}, {}};
+  const bool is_lock = describe_singular(linkage, 0.0, start).kind == SingularKind::lock;
+  if (is_lock && PoseCurve::exists(linkage)) {
+    const PoseCurve curve(linkage, direction.normalized());
+    return {0.0, start, quality, true, no_rates(linkage), curve.tangent(start, curve.rising())};
+  }
+  return {0.0, start, quality, true, continue_from_neighbours(linkage, mobility, start, direction),
+          {}};
 }
 
 // Poses at times from, from + step, ... as far as they can be reached, at most `count`.
@@ -331,9 +426,11 @@ DriveCycle follow_drives(const DrivenLinkage& linkage, const State<double>& star
   const double step = path.duration() / (count - 1);
   cycle.poses = visit(follower, 0.0, step, count);
   cycle.is_complete = static_cast<int>(cycle.poses.size()) == count;
+  cycle.worst = follower.worst();
   if (cycle.is_complete || !options.both_ways) return cycle;
   follower.begin(*begin);
   std::vector<DrivenPose> back = visit(follower, -step, -step, count - 1);
+  cycle.worst = follower.worst();
   std::reverse(back.begin(), back.end());
   cycle.poses.insert(cycle.poses.begin(), back.begin(), back.end());
   return cycle;

@@ -3,11 +3,11 @@
 // Each step takes the drives straight to their place on the course at a later time. It predicts
 // y + y_dot + y_ddot / 2 (rates for a unit of time) and corrects by Newton-Raphson; it is taken if
 // the correction is small and the new rates continue the old ones, so that the branch of the start
-// is kept, and tried again at half the length otherwise. Where steps vanish while the rates of
-// the dependent joints grow without bound the linkage is locked: the drives cannot go on. Where
-// they stay bounded, or where the transmission quality passes through zero between steps, other
-// branches cross: the singular position is found as the minimum of the quality on the interpolated
-// motion.
+// is kept, and tried again at half the length otherwise. Steps shorten in proportion to the
+// distance from where the transmission quality would be zero. Where they vanish the linkage is
+// locked: the drives cannot go on. Where the quality passes through zero, other branches cross: the
+// singular position is found as the minimum of the quality on the interpolated motion. From a lock
+// the linkage is moved back along the curve of its closed poses, on the side from which it came.
 #pragma once
 
 #include <vector>
@@ -35,9 +35,17 @@ struct CourseOptions {
   bool both_ways = false;
 };
 
+// The lowest transmission quality on the way, between the positions as well.
+struct Transmission {
+  double quality = 1.0;
+  double time = 0.0;
+  Eigen::VectorXd drive;  // (n) rad or m
+};
+
 struct DriveCycle {
   std::vector<DrivenPose> poses;  // in the order of time, those that can be reached
   std::vector<SingularPosition> singular;
+  Transmission worst;
   bool is_reached = false;  // the begin of the course: without it there are no poses
   bool is_complete = false;
 };

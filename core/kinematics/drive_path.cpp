@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <limits>
-#include <unsupported/Eigen/Splines>
 #include <utility>
 
 namespace linkstudy {
@@ -31,30 +30,36 @@ Law evaluate(MotionLaw law, double s) {
 
 }  // namespace
 
+// Natural cubic spline: second derivatives m at the points, zero at both ends, from
+//   h_i m_i + 2 (h_i + h_i+1) m_i+1 + h_i+1 m_i+2 = 6 (slope_i+1 - slope_i)
 struct DrivePath::Spline {
-  using Curve = Eigen::Spline<double, 1, Eigen::Dynamic>;
-
-  explicit Spline(const DriveCourse& course) : end(course.times.back()) {
-    const auto count = static_cast<Index>(course.times.size());
-    Eigen::RowVectorXd values(count), knots(count);
-    for (Index i = 0; i < count; ++i) {
-      values[i] = course.positions[static_cast<std::size_t>(i)];
-      knots[i] = course.times[static_cast<std::size_t>(i)] / end;
+  explicit Spline(const DriveCourse& course) : t(course.times), p(course.positions), m(t.size()) {
+    // Forward elimination of the tridiagonal system, then backward.
+    const std::size_t last = t.size() - 1;
+    std::vector<double> above(t.size());
+    for (std::size_t i = 1; i < last; ++i) {
+      const double pivot = 2.0 * (width(i - 1) + width(i)) - width(i - 1) * above[i - 1];
+      above[i] = width(i) / pivot;
+      m[i] = (6.0 * (slope(i) - slope(i - 1)) - width(i - 1) * m[i - 1]) / pivot;
     }
-    // Through two or three points there is no cubic.
-    const auto degree = std::min<Index>(3, count - 1);
-    curve = Eigen::SplineFitting<Curve>::Interpolate(values, degree, knots);
+    for (std::size_t i = last; i-- > 1;) m[i] -= above[i] * m[i + 1];
   }
 
-  Law at(double t) const {
-    const double x = std::clamp(t / end, 0.0, 1.0);
-    const Eigen::Matrix<double, 1, Eigen::Dynamic> d = curve.derivatives(x, 2);
-    const bool rests = t < 0.0 || t > end;
-    return {d[0], rests ? 0.0 : d[1] / end, rests ? 0.0 : d[2] / (end * end)};
+  double width(std::size_t i) const { return t[i + 1] - t[i]; }
+  double slope(std::size_t i) const { return (p[i + 1] - p[i]) / width(i); }
+
+  Law at(double time) const {
+    if (time < t.front()) return {p.front(), 0.0, 0.0};
+    if (time > t.back()) return {p.back(), 0.0, 0.0};
+    const auto above = std::upper_bound(t.begin() + 1, t.end() - 1, time);
+    const auto i = static_cast<std::size_t>(above - t.begin()) - 1;
+    const double h = width(i), x = time - t[i], jerk = (m[i + 1] - m[i]) / h;
+    const double first = slope(i) - h * (2.0 * m[i] + m[i + 1]) / 6.0;
+    return {p[i] + x * (first + x * (0.5 * m[i] + x * jerk / 6.0)),
+            first + x * (m[i] + 0.5 * x * jerk), m[i] + x * jerk};
   }
 
-  double end;
-  Curve curve;
+  std::vector<double> t, p, m;
 };
 
 DrivePath::DrivePath(std::vector<DriveCourse> courses, double duration)

@@ -20,16 +20,56 @@ Svd decompose(const MatrixXd& a) {
   return Svd(a, Eigen::ComputeThinU | Eigen::ComputeThinV);
 }
 
+// Singular directions, of the first `rank`, that a correction follows.
+int followed(const Svd& svd, int rank) {
+  int count = 0;
+  while (count < rank && svd.singularValues()[count] > kCutoff * svd.singularValues()[0]) ++count;
+  return count;
+}
+
 // Least-norm solution of a x = b in the first `rank` singular directions.
 VectorXd solve_within(const Svd& svd, int rank, const VectorXd& b) {
-  VectorXd x = VectorXd::Zero(svd.matrixV().rows());
-  for (int i = 0; i < rank; ++i) {
-    const double size = svd.singularValues()[i];
-    if (size <= kCutoff * svd.singularValues()[0]) break;
-    x += svd.matrixV().col(i) * (svd.matrixU().col(i).dot(b) / size);
-  }
-  return x;
+  const int n = followed(svd, rank);
+  const VectorXd parts =
+      (svd.matrixU().leftCols(n).transpose() * b).cwiseQuotient(svd.singularValues().head(n));
+  return svd.matrixV().leftCols(n) * parts;
 }
+
+// J_dot(v) u from bias(v) = J_dot(v) v, which is quadratic: half of bias(v + u) - bias(v) -
+// bias(u), and half of J (v x u) for the angular velocities of balls, which are no derivatives of
+// positions.
+class JacobianRate {
+ public:
+  JacobianRate(const Model& closed, const ClosureScale& scale, const State<double>& s,
+               const MatrixXd& jacobian, const VectorXd& v)
+      : closed_(closed), scale_(scale), s_(s), jacobian_(jacobian), v_(v), bias_v_(bias(v)) {}
+
+  VectorXd times(const VectorXd& u) {
+    return 0.5 * (bias(v_ + u) - bias_v_ - bias(u) + jacobian_ * bracket(u));
+  }
+
+ private:
+  VectorXd bias(const VectorXd& v) {
+    const VectorXd rates = scale_.velocity.cwiseProduct(v);
+    s_.v.assign(rates.begin(), rates.end());
+    return compute_scaled_closures(closed_, scale_, s_).bias;
+  }
+  VectorXd bracket(const VectorXd& u) const {
+    VectorXd x = VectorXd::Zero(u.size());
+    for (const Stage& stage : closed_.mechanism.stages) {
+      if (stage.motion != BasicMotion::ball) continue;
+      const Eigen::Vector3d a = v_.segment<3>(stage.v), b = u.segment<3>(stage.v);
+      x.segment<3>(stage.v) = a.cross(b);
+    }
+    return x;
+  }
+
+  const Model& closed_;
+  const ClosureScale& scale_;
+  State<double> s_;
+  const MatrixXd& jacobian_;
+  VectorXd v_, bias_v_;
+};
 
 std::string numbered(const std::string& name, int index, int count) {
   return count > 1 ? name + "." + std::to_string(index) : name;
@@ -61,10 +101,12 @@ DrivenLinkage::DrivenLinkage(const Model& closed, const State<double>& pose,
   std::vector<const State<double>*> poses = {&pose};
   for (const State<double>& s : mobility.neighbours) poses.push_back(&s);
   choose_dependent(true);
-  if (find_rank(poses)) return;
-  releases_holds_ = !closed.held.empty();
-  choose_dependent(false);
-  is_overdriven_ = !find_rank(poses);
+  if (!find_rank(poses)) {
+    releases_holds_ = !closed.held.empty();
+    choose_dependent(false);
+    is_overdriven_ = !find_rank(poses);
+  }
+  find_branch_rows(poses);
 }
 
 void DrivenLinkage::choose_dependent(bool keep_holds) {
@@ -82,12 +124,24 @@ bool DrivenLinkage::find_rank(const std::vector<const State<double>*>& poses) {
   bool can_move = false;
   rank_ = -1;
   for (const State<double>* s : poses) {
-    const DriveRanks r = ranks(*s, kMobilityTolerance);
+    const DriveRanks r = ranks(*s, s == poses.front() ? kMobilityTolerance : kNeighbourTolerance);
     if (r.h <= rank_) continue;
     rank_ = r.h;
     can_move = r.h_r == r.h;
   }
   return can_move;
+}
+
+void DrivenLinkage::find_branch_rows(const std::vector<const State<double>*>& poses) {
+  if (undetermined() > 0) return;
+  VectorXd largest = VectorXd::Zero(closed_->mechanism.cut_row_count());
+  for (const State<double>* s : poses) {
+    largest = largest.cwiseMax(dependent_jacobian(*s).rowwise().norm());
+  }
+  for (int r = 0; r < largest.size(); ++r) {
+    if (largest[r] > kMobilityTolerance) branch_rows_.push_back(r);
+  }
+  if (static_cast<int>(branch_rows_.size()) != rank_) branch_rows_.clear();
 }
 
 MatrixXd DrivenLinkage::dependent_jacobian(const State<double>& s) const {
@@ -135,15 +189,20 @@ State<double> DrivenLinkage::moved(const State<double>& s, const VectorXd& dy,
 
 bool DrivenLinkage::close(State<double>& s) const {
   const Mechanism& m = closed_->mechanism;
-  for (int i = 0; i < kMaxIterations && rank_ > 0; ++i) {
+  if (rank_ == 0) return residual(s) < kClosedTolerance;
+  for (int i = 0; i < kMaxIterations; ++i) {
     const ScaledClosures c = compute_scaled_closures(*closed_, scale_, s);
-    const VectorXd x =
-        solve_within(decompose(take_columns(c.jacobian, dependent_)), rank_, -c.residual);
+    const Svd svd = decompose(take_columns(c.jacobian, dependent_));
+    const VectorXd x = solve_within(svd, rank_, -c.residual);
     if (!(x.norm() < kFarthest)) return false;
     s = displaced(m, s, scale_.velocity.cwiseProduct(scatter_entries(x, dependent_, m.nv)));
-    if (x.norm() < kCorrection && residual(s) < kResidual) return true;
+    if (x.norm() >= kCorrection) continue;
+    // What redundant rows leave open by their rounding no correction can close.
+    const VectorXd left = compute_scaled_closures(*closed_, scale_, s).residual;
+    const auto followed_part = svd.matrixU().leftCols(followed(svd, rank_)).transpose() * left;
+    if (followed_part.norm() < kResidual && left.norm() < kClosedTolerance) return true;
   }
-  return rank_ == 0 && residual(s) < kResidual;
+  return false;
 }
 
 DrivenRates DrivenLinkage::rates(const State<double>& given, const VectorXd& rate,
@@ -162,7 +221,25 @@ DrivenRates DrivenLinkage::rates(const State<double>& given, const VectorXd& rat
   }
   const VectorXd bias = compute_scaled_closures(*closed_, scale_, s).bias;
   r.second += scatter_entries(solve_within(svd, rank_, -bias - j * r.second), dependent_, nv);
+  if (undetermined() > 0) r.second += turning_of_least_norm(s, j, svd, r.first);
   return r;
+}
+
+// With y_dot = M^+ b: (1 - M^+ M) M_dot^T (M^+)^T y_dot, because the null space of M turns.
+VectorXd DrivenLinkage::turning_of_least_norm(const State<double>& s, const MatrixXd& jacobian,
+                                              const Svd& svd, const VectorXd& rates) const {
+  const int nv = closed_->mechanism.nv, n = followed(svd, rank_);
+  const auto V = svd.matrixV().leftCols(n);
+  const VectorXd y = take_columns(rates.transpose(), dependent_).transpose();
+  const VectorXd w =
+      svd.matrixU().leftCols(n) * (V.transpose() * y).cwiseQuotient(svd.singularValues().head(n));
+  JacobianRate jacobian_rate(*closed_, scale_, s, jacobian, rates);
+  VectorXd turned(y.size());
+  for (std::size_t i = 0; i < dependent_.size(); ++i) {
+    turned[static_cast<Eigen::Index>(i)] =
+        w.dot(jacobian_rate.times(VectorXd::Unit(nv, dependent_[i])));
+  }
+  return scatter_entries(turned - V * (V.transpose() * turned), dependent_, nv);
 }
 
 double DrivenLinkage::quality(const State<double>& s) const {
@@ -172,13 +249,9 @@ double DrivenLinkage::quality(const State<double>& s) const {
 }
 
 int DrivenLinkage::branch(const State<double>& s) const {
-  if (rank_ == 0 || undetermined() > 0 || quality(s) < kSingularQuality) return 0;
+  if (branch_rows_.empty() || quality(s) < kSingularQuality) return 0;
   const MatrixXd m = dependent_jacobian(s);
-  const Eigen::ColPivHouseholderQR<MatrixXd> qr(m.transpose());
-  std::vector<int> rows(qr.colsPermutation().indices().begin(),
-                        qr.colsPermutation().indices().begin() + rank_);
-  std::sort(rows.begin(), rows.end());
-  return take_columns(m.transpose(), rows).determinant() > 0.0 ? 1 : -1;
+  return take_columns(m.transpose(), branch_rows_).determinant() > 0.0 ? 1 : -1;
 }
 
 double DrivenLinkage::residual(const State<double>& s) const {

@@ -6,13 +6,14 @@
 //   positions      M dy = -r,  until residual and correction are both small
 //   velocities     M y_dot = -N theta_dot
 //   accelerations  M y_ddot = -N theta_ddot - bias(y_dot, theta_dot)
-// M may have redundant rows; where it leaves freedoms open (idle ones, coordinates that nobody
-// drives) they take the solution of least norm. Joints with hold = true rest, driven ones excepted,
-// unless the drives could not move then.
-// Transmission quality: the smallest singular value of M that is not always zero over the largest.
-// Zero: a dependent joint can move while the drives rest.
+// M may have redundant rows. Where it leaves freedoms open (idle ones, coordinates that nobody
+// drives) velocities are those of least norm, and accelerations their derivatives. Joints with hold
+// = true rest, driven ones excepted, unless the drives could not move then. Transmission quality:
+// the smallest singular value of M that is not always zero over the largest. Zero: a dependent
+// joint can move while the drives rest.
 #pragma once
 
+#include <Eigen/SVD>
 #include <string>
 #include <vector>
 
@@ -92,9 +93,8 @@ class DrivenLinkage {
   // Singular values below this part of the largest count as zero.
   DriveRanks ranks(const State<double>& s, double tolerance) const;
 
-  // Which of the closed poses at these drives this is: the sign of the determinant of M, of rows
-  // that are independent where some are redundant; 0 at singular poses, and where coordinates are
-  // not determined.
+  // Which of the closed poses at these drives this is: the sign of the determinant of M, of the
+  // rows that are not always zero. 0 at singular poses and where this M is not square.
   int branch(const State<double>& s) const;
 
   // Joints that can move while the drives rest, judged by the weakest direction of M.
@@ -104,7 +104,11 @@ class DrivenLinkage {
   void choose_dependent(bool keep_holds);
   // Rank of M at the given poses where it is largest; tells whether the drives can move there.
   bool find_rank(const std::vector<const State<double>*>& poses);
+  void find_branch_rows(const std::vector<const State<double>*>& poses);
   Eigen::MatrixXd dependent_jacobian(const State<double>& s) const;
+  Eigen::VectorXd turning_of_least_norm(const State<double>& s, const Eigen::MatrixXd& jacobian,
+                                        const Eigen::JacobiSVD<Eigen::MatrixXd>& svd,
+                                        const Eigen::VectorXd& rates) const;
   Eigen::VectorXd scatter_drives(const Eigen::VectorXd& of_drives) const;
 
   const Model* closed_;
@@ -112,6 +116,7 @@ class DrivenLinkage {
   std::vector<Drive> drives_;
   std::vector<int> driven_;  // velocity indices
   std::vector<int> dependent_;
+  std::vector<int> branch_rows_;  // none: M is not square
   int rank_ = 0;
   bool releases_holds_ = false;
   bool is_overdriven_ = false;

@@ -26,7 +26,7 @@ class Explorer {
   }
 
   int rank(const State<double>& s) const {
-    return numerical_rank(jacobian(s), kMobilityTolerance).rank;
+    return numerical_rank(jacobian(s), kNeighbourTolerance).rank;
   }
 
   // Closed pose reached by a step of the given length along a random motion of the null space;
@@ -35,14 +35,14 @@ class Explorer {
             VectorXd& moved) {
     const VectorXd direction = (null * random_vector(null.cols())).normalized();
     reached = displaced(closed_.mechanism, s, length * scale_.velocity.cwiseProduct(direction));
-    if (close_from(closed_, reached) > kClosedTolerance) return false;
+    if (close_from(closed_, scale_, reached) > kClosedTolerance) return false;
     moved = scaled_difference(closed_.mechanism, scale_, s, reached) / length;
     return moved.norm() < kLeaves;
   }
 
   // Dimension of the motions that exist around a pose.
   int measure(const State<double>& s) {
-    const MatrixXd null = null_space(jacobian(s), kMobilityTolerance);
+    const MatrixXd null = null_space(jacobian(s), kNeighbourTolerance);
     if (null.cols() == 0) return 0;
     const Eigen::Index trials = null.cols() + 2;
     MatrixXd moved = MatrixXd::Zero(closed_.mechanism.nv, trials);
@@ -127,8 +127,7 @@ MobilityReport analyse_mobility(const Model& closed, const State<double>& pose) 
   r.rank = numerical_rank(c.jacobian, kMobilityTolerance);
   r.regular_rank = r.rank.rank;
   r.mobility = r.instantaneous_mobility = r.velocities - r.rank.rank;
-  const ClosureEquations e = compute_closure_equations(closed.mechanism, closed.parameters, pose);
-  if (e.residual.norm() <= kClosedTolerance) {
+  if (c.residual.norm() <= kClosedTolerance) {
     explore(closed, scale, pose, r);
     r.state = state_of(r);
   }

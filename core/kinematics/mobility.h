@@ -22,6 +22,10 @@
 
 namespace linkstudy {
 
+// Of ranks at neighbours, in place of kMobilityTolerance: within the error of assembly a shaky
+// linkage is closed a little off its pose, too.
+inline constexpr double kNeighbourTolerance = 1e-5;
+
 enum class SingularState { none, instantaneous, permanent };
 
 struct MobilityReport {

@@ -32,6 +32,10 @@ struct ScaledClosures {
 ScaledClosures compute_scaled_closures(const Model& closed, const ClosureScale& scale,
                                        const State<double>& s);
 
+// Moves all joints from `s` to a closed pose near by, without restarts, held joints too; returns
+// the norm of the scaled residual that is left.
+double close_from(const Model& closed, const ClosureScale& scale, State<double>& s);
+
 // b less a in velocity coordinates, without dimensions; the turn between two quaternions is a
 // rotation vector.
 Eigen::VectorXd scaled_difference(const Mechanism& m, const ClosureScale& scale,

@@ -1,8 +1,9 @@
 // Positions where the drives do not decide the motion ([Palcak] (4.108)-(4.110)).
-//   branch  h = h_R below the rank of regular poses: other motions cross while the drives rest
 //   lock    h < h_R: the drives cannot go on; the closed poses turn back there
-// A lock is the turning point of the curve of closed poses: it is followed by its arc length, with
-// the drives as one more unknown, to where their rate is zero.
+//   branch  h = h_R below the rank of regular poses: other motions cross while the drives rest
+//   stop    neither: the pose is regular, but it could not be continued
+// A lock is the turning point of the curve of closed poses (pose_curve.h), found where the rate of
+// the drives is zero.
 #pragma once
 
 #include <optional>
@@ -13,11 +14,12 @@
 
 namespace linkstudy {
 
-enum class SingularKind { lock, branch };
+enum class SingularKind { lock, branch, stop };
 
 struct SingularPosition {
   SingularKind kind = SingularKind::branch;
   double time = 0.0;                // of the course, s
+  State<double> s;                  // the pose
   Eigen::VectorXd drive;            // (n) driven coordinates, rad or m
   double quality = 0.0;             // transmission quality there
   DriveRanks ranks;                 // there
@@ -25,7 +27,8 @@ struct SingularPosition {
   std::vector<std::string> joints;  // that can move while the drives rest
 };
 
-SingularPosition describe_singular(const DrivenLinkage& linkage, SingularKind kind, double time,
+// Judges a pose by its ranks.
+SingularPosition describe_singular(const DrivenLinkage& linkage, double time,
                                    const State<double>& s);
 
 // The pose near s where the drives, moving along `direction` (n, without dimensions), turn back.

@@ -45,9 +45,9 @@ DataGroup singular_group(const KinematicsResult& result) {
   DataGroup group;
   group.name = "singular";
   std::vector<std::uint8_t> kinds;
-  for (const Row& p : rows) kinds.push_back(p.kind == SingularKind::lock ? 0 : 1);
+  for (const Row& p : rows) kinds.push_back(static_cast<std::uint8_t>(p.kind));
   group.columns.push_back(
-      {"kind", "", "what the linkage does there", "response", kinds, {"lock", "branch"}});
+      {"kind", "", "what the linkage does there", "response", kinds, {"lock", "branch", "stop"}});
   add_column<double>(group, rows, "time", "s", "time of the course",
                      [](const Row& p) { return p.time; });
   for (std::size_t i = 0; i < result.course->drives.size(); ++i) {

@@ -20,7 +20,7 @@ const char* name_of(SingularState state) {
 }
 
 const char* name_of(SingularKind kind) {
-  return kind == SingularKind::lock ? "lock" : "branch";
+  return kind == SingularKind::lock ? "lock" : kind == SingularKind::branch ? "branch" : "stop";
 }
 
 std::string plural(int count, const std::string& one, const std::string& many) {
@@ -90,20 +90,15 @@ std::string drives_text(const std::vector<Drive>& drives, const Eigen::VectorXd&
 }
 
 std::string singular_text(const std::vector<Drive>& drives, const SingularPosition& p) {
-  const char* what = p.kind == SingularKind::lock
-                         ? "locks: cannot be driven beyond"
-                         : "branches, the drive does not decide which way:";
+  const char* what = p.kind == SingularKind::lock ? "locks: cannot be driven beyond"
+                     : p.kind == SingularKind::branch
+                         ? "branches, the drive does not decide which way:"
+                         : "stops: could not be followed beyond";
   const std::string rests =
       drives.size() == 1 ? drives.front().name + " rests" : std::string("the drives rest");
   return fmt::format("{} {}; {} may move while {} (h = {}, h_R = {} of {})", what,
                      drives_text(drives, p.drive), fmt::join(p.joints, ", "), rests, p.ranks.h,
                      p.ranks.h_r, p.regular_rank);
-}
-
-const DrivenPose& worst_pose(const DriveCycle& cycle) {
-  return *std::min_element(
-      cycle.poses.begin(), cycle.poses.end(),
-      [](const DrivenPose& a, const DrivenPose& b) { return a.quality < b.quality; });
 }
 
 const char* name_of(MotionLaw law) {
@@ -160,12 +155,13 @@ std::string course_text(const KinematicsResult& result) {
   text += notes_text(*result.driven);
   if (!cycle.is_reached) text += summary_line("course", "its begin cannot be reached");
   if (cycle.is_reached) {
-    text += summary_line("course", fmt::format("{} of {} positions{}", cycle.poses.size(),
-                                               result.course->options.positions,
-                                               cycle.is_complete ? "" : ", the rest is locked"));
+    text += summary_line(
+        "course",
+        fmt::format("{} of {} positions{}", cycle.poses.size(), result.course->options.positions,
+                    cycle.is_complete ? "" : ", the rest cannot be reached"));
   }
   if (!cycle.poses.empty()) {
-    const DrivenPose& worst = worst_pose(cycle);
+    const Transmission& worst = cycle.worst;
     const std::string where =
         drives.size() == 1 ? drives_text(drives, worst.drive) : fmt::format("{:.6g} s", worst.time);
     text += summary_line("transmission",

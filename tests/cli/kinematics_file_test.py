@@ -80,7 +80,7 @@ def check_singular(path):
     limit = np.arccos(0.1)
     with xr.open_dataset(path, group="singular", engine="h5netcdf") as group:
         assert group["kind"].values.tolist() == [0, 0]
-        assert group["kind"].attrs["flag_meanings"] == "lock branch"
+        assert group["kind"].attrs["flag_meanings"] == "lock branch stop"
         np.testing.assert_allclose(group["joint_A_q"], [limit, -limit], atol=1e-9)
         assert group["h"].values.tolist() == [1, 1] and group["h_R"].values.tolist() == [2, 2]
         assert group["joints"].values.tolist() == ["joint.B joint.D"] * 2

@@ -28,13 +28,13 @@ class Moving {
  public:
   Moving(std::uint64_t seed, JointType type)
       : closed_(compile_closed(random_closed_linkage(seed, type, ClosureModel::cut))),
-        joint_(cut_joint_of(closed_.mechanism, 0)) {
-    const ClosureScale scale = find_closure_scale(closed_, closed_.start);
-    const ScaledClosures c = compute_scaled_closures(closed_, scale, closed_.start);
+        joint_(cut_joint_of(closed_.mechanism, 0)),
+        scale_(find_closure_scale(closed_, closed_.start)) {
+    const ScaledClosures c = compute_scaled_closures(closed_, scale_, closed_.start);
     const VectorXd free = VectorXd::LinSpaced(closed_.mechanism.nv, -1.0, 1.5);
-    const VectorXd wrong = c.jacobian * free.cwiseQuotient(scale.velocity) + c.bias;
+    const VectorXd wrong = c.jacobian * free.cwiseQuotient(scale_.velocity) + c.bias;
     const VectorXd mended = c.jacobian.completeOrthogonalDecomposition().solve(-wrong);
-    qdd_ = free + scale.velocity.cwiseProduct(mended);
+    qdd_ = free + scale_.velocity.cwiseProduct(mended);
   }
 
   const CutJoint& joint() const { return joint_; }
@@ -49,7 +49,7 @@ class Moving {
   VectorXd position(double t) const {
     State<double> s = displaced(closed_.mechanism, closed_.start,
                                 t * to_vector(closed_.start.v) + 0.5 * t * t * qdd_);
-    EXPECT_LT(close_from(closed_, s), 1e-12);
+    EXPECT_LT(close_from(closed_, scale_, s), 1e-12);
     const VectorXd v = VectorXd::Zero(closed_.mechanism.nv);
     VectorXd q =
         cut_joint_motions(closed_.mechanism, closed_.parameters, s.q.data(), v.data(), v.data())
@@ -75,6 +75,7 @@ class Moving {
   static constexpr double kStep = 0.01;
   Model closed_;
   CutJoint joint_;
+  ClosureScale scale_;
   VectorXd qdd_;
 };
 
