@@ -1,6 +1,7 @@
 // The matrix equation of a basic loop, cut at its closure ([Palcak] (4.30)):
 //   T_1(y) P(p) = T_2(y)
-// T_1, T_2: poses of {1,e}, {2,e} in the body where the two ways meet; P: motion of the cut joint.
+// T_1, T_2: poses of {1,e}, {2,e} in the body where the two ways meet (in its internal frame, that
+// of its tree joint; core/model/mechanism.h); P: motion of the cut joint.
 // Of the 4x4 elements 12 are equations: a11 a21 a31 a12 .. a33 of the direction cosines, a14 a24
 // a34 of the position (over the extent). Six at most are independent; the proper elements are those
 // for which the determinant of the equations is largest, found among all choices: the volume
