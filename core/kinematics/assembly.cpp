@@ -3,8 +3,10 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <numeric>
 #include <random>
+#include <sstream>
 
 #include "core/kinematics/closure_jacobian.h"
 #include "core/kinematics/scaled_closures.h"
@@ -239,6 +241,14 @@ void name_worst_closure(const Model& model, const VectorXd& residual, AssemblyRe
     if (r <= worst) continue;
     worst = r;
     report.worst_closure = model.mechanism.closure_names[i];
+    double gap = 0.0, tilt = 0.0;
+    for (int row = c.row_begin; row < c.row_end; ++row) {
+      const auto k = static_cast<std::size_t>(row);
+      const bool turns = model.mechanism.cut_rows[k].kind == RowKind::rotation;
+      (turns ? tilt : gap) += residual[row] * residual[row];
+    }
+    report.worst_gap = std::sqrt(gap);
+    report.worst_tilt = std::asin(std::min(1.0, std::sqrt(tilt)));
   }
 }
 
@@ -282,6 +292,27 @@ Closing search(const Model& model, const ClosureScale& scale, const std::vector<
 }
 
 }  // namespace
+
+std::string open_text(const AssemblyReport& report) {
+  constexpr double kSlight = 1e-3;  // m and rad: dimensions are rounded
+  const auto number = [](double x) {
+    std::ostringstream text;
+    text << std::setprecision(3) << x;
+    return text.str();
+  };
+  std::string text = "closure." + report.worst_closure + " stays open: gap " +
+                     number(report.worst_gap) + " m, axes apart by " + number(report.worst_tilt) +
+                     " rad";
+  if (report.worst_gap < kSlight && report.worst_tilt < kSlight) {
+    return text +
+           "; an overconstrained loop closes only if its dimensions are exact (\"-90 deg\", "
+           "not -1.5708)";
+  }
+  if (report.worst_tilt > 0.5) {
+    return text + "; the axis of a closure is x of its frames, that of a tree joint z";
+  }
+  return text;
+}
 
 Model compile_closed(const Linkage& linkage) {
   Linkage closed = linkage;

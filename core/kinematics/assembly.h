@@ -35,6 +35,8 @@ struct AssemblyReport {
   int branch = 0;
   std::vector<int> dependent;        // velocity indices
   std::string worst_closure;         // largest residual, if not closed
+  double worst_gap = 0.0;            // of it, m
+  double worst_tilt = 0.0;           // of its axes, rad
   std::vector<std::string> flipped;  // closures whose axes are opposite at the returned start
 };
 
@@ -47,6 +49,9 @@ inline constexpr double kRankTolerance = 1e-7;
 
 // The same linkage with every closure cut, so that its closure equations can be evaluated.
 Model compile_closed(const Linkage& linkage);
+
+// What is open, in words, and what may be wrong: "closure.C stays open: gap 0.003 m, ..."
+std::string open_text(const AssemblyReport& report);
 
 // Moves `start` (positions and velocities) of the compiled closed linkage.
 AssemblyReport assemble_start(const Model& closed, State<double>& start);

@@ -23,7 +23,8 @@ Svd decompose(const MatrixXd& a) {
 // Singular directions, of the first `rank`, that a correction follows.
 int followed(const Svd& svd, int rank) {
   int count = 0;
-  while (count < rank && svd.singularValues()[count] > kCutoff * svd.singularValues()[0]) ++count;
+  const double least = kCutoff * std::max(svd.singularValues()[0], kLeastRowSize);
+  while (count < rank && svd.singularValues()[count] > least) ++count;
   return count;
 }
 
@@ -106,6 +107,7 @@ DrivenLinkage::DrivenLinkage(const Model& closed, const State<double>& pose,
     choose_dependent(false);
     is_overdriven_ = !find_rank(poses);
   }
+  find_size(pose);
   find_branch_rows(poses);
 }
 
@@ -144,6 +146,13 @@ void DrivenLinkage::find_branch_rows(const std::vector<const State<double>*>& po
   if (static_cast<int>(branch_rows_.size()) != rank_) branch_rows_.clear();
 }
 
+void DrivenLinkage::find_size(const State<double>& pose) {
+  std::vector<int> all = dependent_;
+  all.insert(all.end(), driven_.begin(), driven_.end());
+  const MatrixXd r = take_columns(compute_scaled_closures(*closed_, scale_, pose).jacobian, all);
+  size_ = r.size() == 0 ? 1.0 : std::max(Svd(r).singularValues()[0], kLeastRowSize);
+}
+
 MatrixXd DrivenLinkage::dependent_jacobian(const State<double>& s) const {
   return take_columns(compute_scaled_closures(*closed_, scale_, s).jacobian, dependent_);
 }
@@ -153,8 +162,9 @@ DriveRanks DrivenLinkage::ranks(const State<double>& s, double tolerance) const 
   all.insert(all.end(), driven_.begin(), driven_.end());
   const MatrixXd j = compute_scaled_closures(*closed_, scale_, s).jacobian;
   const int z = static_cast<int>(dependent_.size());
-  return {z, numerical_rank(take_columns(j, dependent_), tolerance).rank,
-          numerical_rank(take_columns(j, all), tolerance).rank};
+  const double least = std::max(kLeastRowSize, size_);
+  return {z, numerical_rank(take_columns(j, dependent_), tolerance, least).rank,
+          numerical_rank(take_columns(j, all), tolerance, least).rank};
 }
 
 VectorXd DrivenLinkage::drive_position(const State<double>& s) const {
@@ -199,8 +209,8 @@ bool DrivenLinkage::close(State<double>& s) const {
     if (x.norm() >= kCorrection) continue;
     // What redundant rows leave open by their rounding no correction can close.
     const VectorXd left = compute_scaled_closures(*closed_, scale_, s).residual;
-    const auto followed_part = svd.matrixU().leftCols(followed(svd, rank_)).transpose() * left;
-    if (followed_part.norm() < kResidual && left.norm() < kClosedTolerance) return true;
+    const double independent = (svd.matrixU().leftCols(rank_).transpose() * left).norm();
+    if (independent < kResidual && left.norm() < kClosedTolerance) return true;
   }
   return false;
 }
@@ -213,7 +223,7 @@ DrivenRates DrivenLinkage::rates(const State<double>& given, const VectorXd& rat
   State<double> s = given;
   const MatrixXd j = compute_scaled_closures(*closed_, scale_, s).jacobian;
   const Svd svd = decompose(take_columns(j, dependent_));
-  r.quality = svd.singularValues()[rank_ - 1] / svd.singularValues()[0];
+  r.quality = svd.singularValues()[rank_ - 1] / size_;
   r.is_singular = r.quality < kSingularQuality;
   r.first += scatter_entries(solve_within(svd, rank_, -j * r.first), dependent_, nv);
   for (int k = 0; k < nv; ++k) {
@@ -244,8 +254,7 @@ VectorXd DrivenLinkage::turning_of_least_norm(const State<double>& s, const Matr
 
 double DrivenLinkage::quality(const State<double>& s) const {
   if (rank_ == 0) return 1.0;
-  const VectorXd sizes = Svd(dependent_jacobian(s)).singularValues();
-  return sizes[rank_ - 1] / sizes[0];
+  return Svd(dependent_jacobian(s)).singularValues()[rank_ - 1] / size_;
 }
 
 int DrivenLinkage::branch(const State<double>& s) const {

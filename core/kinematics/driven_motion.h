@@ -8,9 +8,10 @@
 //   accelerations  M y_ddot = -N theta_ddot - bias(y_dot, theta_dot)
 // M may have redundant rows. Where it leaves freedoms open (idle ones, coordinates that nobody
 // drives) velocities are those of least norm, and accelerations their derivatives. Joints with hold
-// = true rest, driven ones excepted, unless the drives could not move then. Transmission quality:
-// the smallest singular value of M that is not always zero over the largest. Zero: a dependent
-// joint can move while the drives rest.
+// = true rest, driven ones excepted, unless the drives could not move then.
+//
+// Transmission quality: the smallest singular value of M that is not always zero over the largest
+// of (M, N) at the start. Zero: a dependent joint can move while the drives rest.
 #pragma once
 
 #include <Eigen/SVD>
@@ -105,6 +106,7 @@ class DrivenLinkage {
   // Rank of M at the given poses where it is largest; tells whether the drives can move there.
   bool find_rank(const std::vector<const State<double>*>& poses);
   void find_branch_rows(const std::vector<const State<double>*>& poses);
+  void find_size(const State<double>& pose);
   Eigen::MatrixXd dependent_jacobian(const State<double>& s) const;
   Eigen::VectorXd turning_of_least_norm(const State<double>& s, const Eigen::MatrixXd& jacobian,
                                         const Eigen::JacobiSVD<Eigen::MatrixXd>& svd,
@@ -118,6 +120,7 @@ class DrivenLinkage {
   std::vector<int> dependent_;
   std::vector<int> branch_rows_;  // none: M is not square
   int rank_ = 0;
+  double size_ = 0.0;  // largest singular value of (M, N) at the pose
   bool releases_holds_ = false;
   bool is_overdriven_ = false;
 };

@@ -67,7 +67,7 @@ class IdleSearch {
         connections_(connections_of(closed.mechanism)),
         motions_(twists_of(closed, scale, pose) *
                  null_space(compute_scaled_closures(closed, scale, pose).jacobian,
-                            kMobilityTolerance)) {}
+                            kMobilityTolerance, kLeastRowSize)) {}
 
   std::vector<IdleFreedom> run() const {
     std::vector<IdleFreedom> found;

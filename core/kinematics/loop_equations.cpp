@@ -131,7 +131,7 @@ MatrixXd LoopEquations::jacobian(const State<double>& s, const VectorXd& cut_pos
 }
 
 ProperElements choose_proper_elements(const MatrixXd& jacobian) {
-  const int rank = numerical_rank(jacobian, kMobilityTolerance).rank;
+  const int rank = numerical_rank(jacobian, kMobilityTolerance, kLeastRowSize).rank;
   const MatrixXd gram = jacobian * jacobian.transpose();
   double best = -1.0;
   ProperElements proper;

@@ -26,7 +26,7 @@ class Explorer {
   }
 
   int rank(const State<double>& s) const {
-    return numerical_rank(jacobian(s), kNeighbourTolerance).rank;
+    return numerical_rank(jacobian(s), kNeighbourTolerance, kLeastRowSize).rank;
   }
 
   // Closed pose reached by a step of the given length along a random motion of the null space;
@@ -42,7 +42,7 @@ class Explorer {
 
   // Dimension of the motions that exist around a pose.
   int measure(const State<double>& s) {
-    const MatrixXd null = null_space(jacobian(s), kNeighbourTolerance);
+    const MatrixXd null = null_space(jacobian(s), kNeighbourTolerance, kLeastRowSize);
     if (null.cols() == 0) return 0;
     const Eigen::Index trials = null.cols() + 2;
     MatrixXd moved = MatrixXd::Zero(closed_.mechanism.nv, trials);
@@ -83,7 +83,7 @@ void count_parts(const Model& closed, MobilityReport& r) {
 void explore(const Model& closed, const ClosureScale& scale, const State<double>& pose,
              MobilityReport& r) {
   Explorer explorer(closed, scale);
-  const MatrixXd null = null_space(explorer.jacobian(pose), kMobilityTolerance);
+  const MatrixXd null = null_space(explorer.jacobian(pose), kMobilityTolerance, kLeastRowSize);
   r.regular_rank = r.rank.rank;
   r.mobility = 0;
   for (int i = 0; i < kTrials && null.cols() > 0; ++i) {
@@ -124,7 +124,7 @@ MobilityReport analyse_mobility(const Model& closed, const State<double>& pose) 
   MobilityReport r;
   count_parts(closed, r);
   const ScaledClosures c = compute_scaled_closures(closed, scale, pose);
-  r.rank = numerical_rank(c.jacobian, kMobilityTolerance);
+  r.rank = numerical_rank(c.jacobian, kMobilityTolerance, kLeastRowSize);
   r.regular_rank = r.rank.rank;
   r.mobility = r.instantaneous_mobility = r.velocities - r.rank.rank;
   if (c.residual.norm() <= kClosedTolerance) {

@@ -9,7 +9,7 @@ namespace {
 using Eigen::MatrixXd;
 
 int rank_of(const MatrixXd& a) {
-  return numerical_rank(a, kMobilityTolerance).rank;
+  return numerical_rank(a, kMobilityTolerance, kLeastRowSize).rank;
 }
 
 bool carries(const Mechanism& m, int body, int end) {

@@ -15,6 +15,9 @@ namespace linkstudy {
 // Singular values below this part of the largest count as zero. Poses are closed to 1e-9.
 inline constexpr double kMobilityTolerance = 1e-7;
 
+// Scaled rows are of the size of one: singular values are measured by this where all are smaller.
+inline constexpr double kLeastRowSize = 1e-3;
+
 struct ClosureScale {
   double extent = 1.0;       // m
   Eigen::VectorXd row;       // (nc)

@@ -4,11 +4,11 @@
 
 namespace linkstudy {
 
-NumericalRank numerical_rank(const Eigen::MatrixXd& a, double relative_tolerance) {
+NumericalRank numerical_rank(const Eigen::MatrixXd& a, double relative_tolerance, double least) {
   NumericalRank r;
   if (a.size() == 0) return r;
   const Eigen::VectorXd s = Eigen::JacobiSVD<Eigen::MatrixXd>(a).singularValues();
-  const double largest = s[0];
+  const double largest = std::max(s[0], least);
   if (largest == 0.0) return r;
   for (Eigen::Index i = 0; i < s.size(); ++i) {
     const double relative = s[i] / largest;
@@ -22,10 +22,10 @@ NumericalRank numerical_rank(const Eigen::MatrixXd& a, double relative_tolerance
   return r;
 }
 
-Eigen::MatrixXd null_space(const Eigen::MatrixXd& a, double relative_tolerance) {
+Eigen::MatrixXd null_space(const Eigen::MatrixXd& a, double relative_tolerance, double least) {
   if (a.rows() == 0) return Eigen::MatrixXd::Identity(a.cols(), a.cols());
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(a, Eigen::ComputeFullV);
-  const int rank = numerical_rank(a, relative_tolerance).rank;
+  const int rank = numerical_rank(a, relative_tolerance, least).rank;
   return svd.matrixV().rightCols(a.cols() - rank);
 }
 

@@ -124,8 +124,8 @@ bool assemble(const Linkage& linkage, const std::vector<unsigned>& idle, const M
   const AssemblyReport& a = p.assembly;
   if (!a.closed) {
     fail(p, Cause::assembly_failed,
-         "closure '" + a.worst_closure + "' cannot be closed from the given start: residual " +
-             number(a.residual) + " after " + std::to_string(a.restarts) + " restarts");
+         "the given start cannot be closed: " + open_text(a) + ", after " +
+             std::to_string(a.restarts) + " restarts");
     return false;
   }
   if (!loose && !accept_velocities(a, p)) return false;

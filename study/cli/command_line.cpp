@@ -308,7 +308,7 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments) {
 std::string usage() {
   std::string text = "usage: linkstudy VERB [options] INPUT\n\n";
   for (const Verb& verb : verbs()) {
-    text += fmt::format("  {:<10}{:<10}{}\n", verb.name, verb.inputs, verb.does);
+    text += fmt::format("  {:<11}{:<10}{}\n", verb.name, verb.inputs, verb.does);
   }
   return text +
          "\n'linkstudy VERB --help' lists the options of a verb; 'linkstudy --version'.\n"

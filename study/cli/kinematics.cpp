@@ -30,7 +30,8 @@ int run_kinematics(const CommandLine& line) {
     print_out(text);
   }
   if (line.json) print_out(kinematics_json(result) + "\n");
-  return result.assembly.closed ? kDone : kTooManyFailed;
+  const bool is_followed = !result.driven || !result.cycle.poses.empty();
+  return result.assembly.closed && is_followed ? kDone : kTooManyFailed;
 }
 
 }  // namespace linkstudy

@@ -110,6 +110,10 @@ void set_range(const CommandLine& line, std::vector<Driven>& chosen) {
                     option, chosen.size(), chosen.front().drive.name));
   }
   Driven& driven = chosen.front();
+  const bool is_given = !line.drives.empty() && driven.course.from;
+  if (is_given) {
+    throw UsageError(fmt::format("{} and a range in --drive contradict each other", option));
+  }
   if (driven.course.law == MotionLaw::table) {
     throw UsageError(fmt::format("{} cannot change a table: give --drive {}=FROM:TO", option,
                                  driven.drive.name));
@@ -157,11 +161,13 @@ double choose_duration(const CommandLine& line, const KinematicsOptions& declare
   if (line.speed) {
     const Driven& first = chosen.front();
     const std::string unit = first.drive.turns ? "rad/s" : "m/s";
-    const double speed = std::abs(read_quantity("--speed", *line.speed, unit.c_str()));
+    const double speed = read_quantity("--speed", *line.speed, unit.c_str());
     if (chosen.size() > 1 || table != chosen.end()) {
       throw UsageError("--speed is for one drive that goes from one position to another");
     }
-    if (!(speed > 0.0)) throw UsageError("--speed must not be zero");
+    if (!(speed > 0.0)) {
+      throw UsageError("--speed must be positive: the sense is that from --from to --to");
+    }
     return time_at_unit_speed(chosen) / speed;
   }
   if (table != chosen.end()) return table->course.times.back();

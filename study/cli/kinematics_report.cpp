@@ -36,8 +36,7 @@ std::string position_text(const Drive& drive, double value) {
 std::string verdict(const KinematicsResult& result) {
   const MobilityReport& r = result.mobility;
   if (!result.assembly.closed) {
-    return fmt::format("cannot be assembled: closure.{} stays open by {:.3g}",
-                       result.assembly.worst_closure, result.assembly.residual);
+    return "cannot be assembled: " + open_text(result.assembly);
   }
   if (r.mobility == 0 && r.instantaneous_mobility > 0) {
     return "a structure that gives way slightly: joints can start to move but not go on";
@@ -66,11 +65,14 @@ std::string rank_text(const MobilityReport& r) {
 
 std::string redundant_text(const MobilityReport& r) {
   std::vector<std::string> parts;
+  bool are_alike = static_cast<int>(r.redundant_joints.size()) == r.joints;
   for (const CarriedRedundancy& joint : r.redundant_joints) {
     parts.push_back(fmt::format("{} ({})", joint.joint, joint.count));
+    are_alike = are_alike && joint.count == r.redundant_joints.front().count;
   }
+  const std::string where = are_alike ? "every joint" : fmt::format("{}", fmt::join(parts, ", "));
   return fmt::format("{}, held twice at {}; single reactions there are not unique", r.redundant,
-                     fmt::join(parts, ", "));
+                     where);
 }
 
 std::string idle_text(const IdleFreedom& idle) {
@@ -115,11 +117,20 @@ const char* name_of(MotionLaw law) {
 }
 
 std::string drive_text(const Drive& drive, const DriveCourse& course, double duration) {
-  const bool is_table = course.law == MotionLaw::table;
-  const double from = is_table ? course.positions.front() : *course.from;
-  const double to = is_table ? course.positions.back() : *course.to;
-  return fmt::format("{} from {} to {}, {} in {:.6g} s", drive.name, position_text(drive, from),
-                     position_text(drive, to), name_of(course.law), duration);
+  const auto range = [&](double from, double to, const char* between) {
+    return fmt::format("{} {} {} {} {}, {} in {:.6g} s", drive.name,
+                       *between == 't' ? "from" : "between", position_text(drive, from), between,
+                       position_text(drive, to), name_of(course.law), duration);
+  };
+  if (course.law == MotionLaw::table) {
+    const auto [least, most] =
+        std::minmax_element(course.positions.begin(), course.positions.end());
+    return range(*least, *most, "and");
+  }
+  if (*course.from == *course.to) {
+    return fmt::format("{} rests at {}", drive.name, position_text(drive, *course.to));
+  }
+  return range(*course.from, *course.to, "to");
 }
 
 std::string notes_text(const DrivenLinkage& driven) {
@@ -148,10 +159,6 @@ std::string course_text(const KinematicsResult& result) {
   for (std::size_t i = 0; i < drives.size(); ++i) {
     text += summary_line("drive", drive_text(drives[i], path.courses()[i], path.duration()));
   }
-  const std::string branch = result.branch == 0 ? "" : fmt::format(", branch {:+d}", result.branch);
-  text += summary_line("drive rank",
-                       fmt::format("h = {}, h_R = {} of {} dependent coordinates{}", result.ranks.h,
-                                   result.ranks.h_r, result.ranks.dependent, branch));
   text += notes_text(*result.driven);
   if (!cycle.is_reached) text += summary_line("course", "its begin cannot be reached");
   if (cycle.is_reached) {
@@ -167,6 +174,7 @@ std::string course_text(const KinematicsResult& result) {
     text += summary_line("transmission",
                          fmt::format("quality at least {:.4g}, at {}", worst.quality, where));
   }
+  if (result.driven->is_overdriven()) return text;
   for (const SingularPosition& p : cycle.singular) {
     text += summary_line("singular", singular_text(drives, p));
   }
@@ -247,28 +255,49 @@ Json idle_json(const MobilityReport& r) {
   return all;
 }
 
+// The equations behind it all.
+std::string equations_text(const KinematicsResult& result) {
+  const MobilityReport& r = result.mobility;
+  std::string text = summary_line(
+      "parts", fmt::format("{} with ground, {}, {}, {}", plural(r.links, "link", "links"),
+                           plural(r.joints, "joint", "joints"), plural(r.loops, "loop", "loops"),
+                           plural(r.coordinates, "coordinate", "coordinates")));
+  text += summary_line("rank", rank_text(r));
+  if (!result.assembly.closed) return text;
+  const char* state = r.state == SingularState::none ? "regular"
+                      : r.state == SingularState::permanent
+                          ? "permanent singular state: equations are redundant everywhere"
+                          : "instantaneous singular state: equations are redundant here only";
+  text += summary_line("state", state);
+  for (const LoopResult& loop : result.loops) text += summary_line("loop", loop_text(loop));
+  if (!result.driven) return text;
+  const std::string branch = result.branch == 0 ? "" : fmt::format(", branch {:+d}", result.branch);
+  return text +
+         summary_line("drive rank",
+                      fmt::format("h = {}, h_R = {} of {} dependent coordinates{}", result.ranks.h,
+                                  result.ranks.h_r, result.ranks.dependent, branch));
+}
+
 }  // namespace
 
 std::string kinematics_text(const std::string& file, const std::string& name,
                             const KinematicsResult& result) {
+  constexpr double kMoved = 1e-6;  // rad or m
   const MobilityReport& r = result.mobility;
   std::string text = summary_line("model", fmt::format("{} ({})", name, file));
   text += summary_line("verdict", verdict(result));
-  text += summary_line(
-      "parts", fmt::format("{} with ground, {}, {}, {} coordinates",
-                           plural(r.links, "link", "links"), plural(r.joints, "joint", "joints"),
-                           plural(r.loops, "loop", "loops"), r.coordinates));
   text += summary_line("mobility", fmt::format("{} (Kutzbach {}, at this position {})", r.mobility,
                                                r.kutzbach, r.instantaneous_mobility));
-  text += summary_line("rank", rank_text(r));
-  if (!result.assembly.closed) return text;
-  text += summary_line("state", r.state == SingularState::none
-                                    ? std::string("regular")
-                                    : fmt::format("singular, {}", name_of(r.state)));
-  if (r.redundant > 0) text += summary_line("redundant", redundant_text(r));
+  if (result.assembly.closed && result.assembly.displacement > kMoved) {
+    text += summary_line(
+        "start", fmt::format("moved by {:.3g} (rad, m) to close", result.assembly.displacement));
+  }
+  if (result.assembly.closed && r.redundant > 0) {
+    text += summary_line("redundant", redundant_text(r));
+  }
   for (const IdleFreedom& idle : r.idle) text += summary_line("idle", idle_text(idle));
-  for (const LoopResult& loop : result.loops) text += summary_line("loop", loop_text(loop));
-  return result.driven ? text + course_text(result) : text;
+  if (result.driven) text += course_text(result);
+  return text + equations_text(result);
 }
 
 std::string kinematics_json(const KinematicsResult& result) {

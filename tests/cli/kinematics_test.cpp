@@ -281,7 +281,23 @@ TEST_F(Kinematics, Of_a_model_that_cannot_be_assembled_says_so) {
   EXPECT_EQ(ended.code, 3);
   EXPECT_FALSE(json::parse(ended.out)["closed"]);
   EXPECT_EQ(json::parse(ended.out)["mobility"], 0);
-  EXPECT_THAT(ended.err, HasSubstr("cannot be assembled: closure.C"));
+  EXPECT_THAT(ended.err, HasSubstr("cannot be assembled: closure.C stays open: gap"));
+}
+
+TEST_F(Kinematics, Explains_rounded_angles_and_forgotten_axes) {
+  const auto first = [](const std::string& rotation) {
+    return "-s 'closure.C.first.euler_zyx=" + rotation + "'";
+  };
+  EXPECT_THAT(analyse("four_bar", first("[0.0, -1.5708, 0.0]")).out,
+              HasSubstr("axes apart by 3.67e-06 rad; an overconstrained loop closes only if its "
+                        "dimensions are exact"));
+  EXPECT_THAT(analyse("four_bar", first("[0.0, 0.0, 0.0]")).out,
+              HasSubstr("the axis of a closure is x of its frames"));
+}
+
+TEST_F(Kinematics, Of_a_course_that_cannot_begin_fails) {
+  EXPECT_EQ(analyse("four_bar_double_rocker", "--from 3 --to 1").code, 3);
+  EXPECT_EQ(analyse("four_bar_double_rocker").code, 0);
 }
 
 TEST_F(Kinematics, Refuses_wrong_options) {
@@ -296,7 +312,8 @@ TEST_F(Kinematics, Refuses_wrong_options) {
       {"--drive joint.A=0:1m", "TO must be a number in rad"},
       {"--drive joint.A --drive joint.B --to 1", "--to is for one drive, there are 2"},
       {"--drive joint.A --drive joint.B --speed 1", "--speed is for one drive"},
-      {"--speed 0", "--speed must not be zero"},
+      {"--speed 0", "--speed must be positive"},
+      {"--drive joint.A=0:1 --from 0", "contradict each other"},
       {"--h5 nowhere/x.h5", "there is no directory"},
       {"--csv - --json", "both want standard output"}};
   for (const auto& [options, message] : wrong) {

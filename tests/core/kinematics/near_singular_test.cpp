@@ -243,6 +243,45 @@ TEST(NearSingular, The_branch_stays_along_a_course) {
   EXPECT_EQ(loop.linkage().branch(loop.follow(1.0, 2.0).poses.front().s), 0);
 }
 
+// Two shafts at an angle, pins of the cross normal to their plane and in it: tan(out) = cos(angle)
+// tan(in), with the closure -sin(in) cos(angle) cos(out) + cos(in) sin(out) = 0.
+Linkage hooke_joint(double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return PlacedLinkage("hooke_joint")
+      .add("A", JointType::revolute, kGround, "in", {{0, 0, 0}, {1, 0, 0}})
+      .add("B", JointType::revolute, kGround, "out", {{0, 0, 0}, {c, s, 0}})
+      .close("C", JointType::universal, "in", "out", {{0, 0, 0}, {0, 0, 1}, {-s, c, 0}})
+      .linkage();
+}
+
+TEST(NearSingular, Transmission_of_a_hooke_joint_falls_with_its_angle) {
+  for (const double degrees : {30.0, 60.0, 89.0, 89.9}) {
+    const double c = std::cos(degrees * M_PI / 180.0);
+    const Followed joint(hooke_joint(degrees * M_PI / 180.0));
+    const DriveCycle cycle = joint.follow(0.0, 2 * M_PI);
+    ASSERT_TRUE(cycle.is_complete);
+    EXPECT_TRUE(cycle.singular.empty());
+    for (const DrivenPose& pose : cycle.poses) {
+      const double out = std::atan2(c * std::sin(pose.drive[0]), std::cos(pose.drive[0]));
+      EXPECT_NEAR(std::remainder(joint.q(pose, "B") - out, 2 * M_PI), 0.0, 1e-9);
+    }
+    EXPECT_NEAR(cycle.worst.quality, c / std::sqrt(1.0 + c * c), 0.02 * c);
+  }
+}
+
+// At right angles both partial derivatives of the closure vanish together.
+TEST(NearSingular, A_hooke_joint_at_right_angles_branches) {
+  const Followed joint(hooke_joint(M_PI / 2));
+  const DriveCycle cycle = joint.follow(0.0, 2.0);
+  ASSERT_FALSE(cycle.singular.empty());
+  const SingularPosition& p = cycle.singular.front();
+  EXPECT_EQ(p.kind, SingularKind::branch);
+  EXPECT_NEAR(p.drive[0], M_PI / 2, 1e-6);
+  EXPECT_EQ(p.regular_rank, 1);
+  EXPECT_EQ(p.ranks.h, 0);
+  EXPECT_EQ(p.ranks.h_r, 0);
+}
+
 // Between the positions asked for, too: transmission of a four-bar is lowest where the diagonal is
 // longest or shortest.
 TEST(NearSingular, The_worst_transmission_is_found_between_positions) {

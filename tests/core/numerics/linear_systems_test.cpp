@@ -119,6 +119,9 @@ TEST(Rank, The_tolerance_decides_and_both_sides_of_the_gap_are_reported) {
   EXPECT_NEAR(tight.largest_dropped, 1e-8, 1e-20);
   EXPECT_EQ(numerical_rank(MatrixXd::Zero(2, 3), 1e-9).rank, 0);
   EXPECT_EQ(numerical_rank(MatrixXd(0, 3), 1e-9).rank, 0);
+  const MatrixXd roundings = 1e-16 * MatrixXd::Identity(2, 2);
+  EXPECT_EQ(numerical_rank(roundings, 1e-9).rank, 2);
+  EXPECT_EQ(numerical_rank(roundings, 1e-9, 1e-3).rank, 0);
 }
 
 TEST(Rank, The_null_space_is_orthonormal_and_mapped_to_zero) {
