@@ -394,7 +394,9 @@ bool convert_text(Tree& value, const KeyRow& row, const std::string& subject,
     value.kind = Kind::invalid;
     return false;
   };
-  const std::string wanted = described_type(row);
+  KeyRow single = row;
+  if (row.type == KeyType::numbers) single.type = KeyType::number;
+  const std::string wanted = described_type(single);
   const std::string example = row.unit.empty()
                                   ? "write a plain number"
                                   : fmt::format("write a number, or a text such as \"1.5 {}\"",
