@@ -5,16 +5,13 @@
 #include <cmath>
 
 #include "core/dynamics/motion.h"
+#include "core/spatial/to_eigen.h"
 
 namespace linkstudy {
 namespace {
 
 constexpr double kStep = 1e-3;         // rad, or of the length
 constexpr double kCoincidence = 1e-6;  // m
-
-Eigen::Vector3d to_eigen(const Vec3<double>& a) {
-  return {a.x, a.y, a.z};
-}
 
 }  // namespace
 

@@ -8,6 +8,7 @@
 #include "core/kinematics/body_accelerations.h"
 #include "core/kinematics/closure_kinematics.h"
 #include "core/spatial/euler_parameters.h"
+#include "core/spatial/to_eigen.h"
 
 namespace linkstudy {
 namespace {
@@ -16,16 +17,6 @@ using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
-
-Vector3d to_eigen(const Vec3<double>& a) {
-  return {a.x, a.y, a.z};
-}
-
-Matrix3d to_eigen(const Mat3<double>& r) {
-  Matrix3d m;
-  m << to_eigen(r.x), to_eigen(r.y), to_eigen(r.z);
-  return m;
-}
 
 // Rates of the free rotations and their derivatives: with x of {1,e} and y of {2,e} at right angles
 //   omega_2 - omega_1 = phi_dot x_1 + theta_dot y_2

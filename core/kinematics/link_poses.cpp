@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/kinematics/forward_kinematics.h"
+#include "core/spatial/to_eigen.h"
 
 namespace linkstudy {
 namespace {
@@ -15,11 +16,7 @@ ShortenedDualQuaternion body_in_link(const Linkage& linkage, const std::string& 
 }
 
 ShortenedDualQuaternion pose_of(const BodyState<double>& body) {
-  Eigen::Matrix3d r;
-  r << body.r.x.x, body.r.y.x, body.r.z.x,  //
-      body.r.x.y, body.r.y.y, body.r.z.y,   //
-      body.r.x.z, body.r.y.z, body.r.z.z;
-  return {euler_parameters(r), {body.p.x, body.p.y, body.p.z}};
+  return {euler_parameters(to_eigen(body.r)), to_eigen(body.p)};
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "core/kinematics/closure_jacobian.h"
 #include "core/numerics/rank.h"
+#include "core/spatial/to_eigen.h"
 
 namespace linkstudy {
 namespace {
@@ -15,10 +16,6 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 using Elements = Eigen::Matrix<double, kElements, 1>;
 using Twist = Eigen::Matrix<double, 6, 1>;
-
-Vector3d to_eigen(const Vec3<double>& a) {
-  return {a.x, a.y, a.z};
-}
 
 // omega and the velocity of a point by one velocity.
 Twist twist_of(const Model& closed, const Workspace<double>& w, int k, const Vector3d& point) {
@@ -94,8 +91,7 @@ LoopEquations::Frames LoopEquations::frames(const State<double>& s,
   f.first = first_frame(x);
   f.second = second_frame(x);
   f.reached = cut_position ? moved_by(joint_, *cut_position, f.first) : f.second;
-  const Mat3<double>& r = f.w.bodies[static_cast<std::size_t>(loop_.common)].r;
-  f.common << to_eigen(r.x), to_eigen(r.y), to_eigen(r.z);
+  f.common = to_eigen(f.w.bodies[static_cast<std::size_t>(loop_.common)].r);
   return f;
 }
 

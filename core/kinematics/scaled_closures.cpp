@@ -3,15 +3,12 @@
 #include <Eigen/Geometry>
 
 #include "core/kinematics/closure_jacobian.h"
+#include "core/spatial/to_eigen.h"
 
 namespace linkstudy {
 namespace {
 
 using Eigen::VectorXd;
-
-Eigen::Vector3d to_eigen(const Vec3<double>& a) {
-  return {a.x, a.y, a.z};
-}
 
 double find_extent(const Model& model, const Workspace<double>& w) {
   const Mechanism& m = model.mechanism;

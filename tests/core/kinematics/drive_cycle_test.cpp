@@ -11,6 +11,7 @@
 #include "tests/mechanisms/placed_linkage.h"
 #include "tests/mechanisms/rsrrp.h"
 #include "tests/mechanisms/spatial_slider_crank.h"
+#include "tests/support/derivatives.h"
 
 namespace linkstudy::testing {
 namespace {
@@ -155,22 +156,6 @@ TEST(DriveCycle, Of_a_bennett_linkage_follows_the_closed_form) {
       EXPECT_NEAR(loop.a(pose, w, joint), acceleration, kExact * w * w);
     }
   }
-}
-
-// Derivatives of sixth order.
-template <class F>
-double slope(F f, double x) {
-  const double h = 4e-3;
-  return (45 * (f(x + h) - f(x - h)) - 9 * (f(x + 2 * h) - f(x - 2 * h)) +
-          (f(x + 3 * h) - f(x - 3 * h))) /
-         (60 * h);
-}
-template <class F>
-double curvature(F f, double x) {
-  const double h = 1.5e-2;
-  return (-490 * f(x) + 270 * (f(x + h) + f(x - h)) - 27 * (f(x + 2 * h) + f(x - 2 * h)) +
-          2 * (f(x + 3 * h) + f(x - 3 * h))) /
-         (180 * h * h);
 }
 
 TEST(DriveCycle, Of_RSRRP_follows_the_closed_form) {

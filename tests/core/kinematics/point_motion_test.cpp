@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/model/compile.h"
+#include "core/spatial/to_eigen.h"
 #include "tests/mechanisms/pendulum.h"
 #include "tests/mechanisms/random_linkages.h"
 #include "tests/support/free_bodies.h"
@@ -18,10 +19,6 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 using Motions = std::vector<linkstudy::PointMotion>;
-
-Vector3d to_eigen(const Vec3<double>& a) {
-  return {a.x, a.y, a.z};
-}
 
 Motions motions_at(const Model& model, const VectorXd& q, const VectorXd& v, const VectorXd& a) {
   return point_motions(model.mechanism, model.parameters, q.data(), v.data(), a.data());

@@ -9,6 +9,7 @@
 #include "core/kinematics/link_poses.h"
 #include "tests/mechanisms/four_bar.h"
 #include "tests/mechanisms/placed_linkage.h"
+#include "tests/support/derivatives.h"
 
 namespace linkstudy::testing {
 namespace {
@@ -83,22 +84,6 @@ struct FiveBar {
     return std::arg((C - B(a)) / (C0 - B0));
   }
 };
-
-// Derivatives of sixth order.
-template <class F>
-double slope(F f, double t) {
-  const double h = 2e-3;
-  return (45 * (f(t + h) - f(t - h)) - 9 * (f(t + 2 * h) - f(t - 2 * h)) +
-          (f(t + 3 * h) - f(t - 3 * h))) /
-         (60 * h);
-}
-template <class F>
-double curvature(F f, double t) {
-  const double h = 1e-2;
-  return (-490 * f(t) + 270 * (f(t + h) + f(t - h)) - 27 * (f(t + 2 * h) + f(t - 2 * h)) +
-          2 * (f(t + 3 * h) + f(t - 3 * h))) /
-         (180 * h * h);
-}
 
 TEST(SeveralDrives, Of_two_cranks_on_different_laws_follows_the_closed_form) {
   const DrivenTogether bars(five_bar(), {"A", "E"});
