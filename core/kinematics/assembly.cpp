@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "core/kinematics/closure_jacobian.h"
+#include "core/kinematics/cut_joint.h"
 #include "core/kinematics/scaled_closures.h"
 #include "core/numerics/rank.h"
 
@@ -30,22 +31,6 @@ std::vector<int> free_velocities(const Model& model) {
     if (!held) free.push_back(k);
   }
   return free;
-}
-
-MatrixXd columns_of(const MatrixXd& a, const std::vector<int>& columns) {
-  MatrixXd b(a.rows(), static_cast<Eigen::Index>(columns.size()));
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    b.col(static_cast<Eigen::Index>(i)) = a.col(columns[i]);
-  }
-  return b;
-}
-
-VectorXd scatter(const VectorXd& part, const std::vector<int>& columns, int n) {
-  VectorXd all = VectorXd::Zero(n);
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    all[columns[i]] = part[static_cast<Eigen::Index>(i)];
-  }
-  return all;
 }
 
 // Step of least norm that minimises |r + J x|^2 + mu |x|^2.
@@ -70,10 +55,10 @@ Closing solve(const Mechanism& m, const Equations& equations, const std::vector<
   double mu = 0.0;
   int iteration = 0;
   for (; !free.empty() && iteration < kMaxIterations && residual > kPolished; ++iteration) {
-    VectorXd x = damped_step(columns_of(e.jacobian, free), e.residual, mu);
+    VectorXd x = damped_step(take_columns(e.jacobian, free), e.residual, mu);
     const double longest = x.lpNorm<Eigen::Infinity>();
     if (longest > kLongestStep) x *= kLongestStep / longest;
-    const State<double> trial = displaced(m, s, scatter(x, free, m.nv));
+    const State<double> trial = displaced(m, s, scatter_entries(x, free, m.nv));
     ClosureEquations et = equations(trial);
     if (et.residual.norm() < residual) {
       s = trial;
@@ -97,10 +82,7 @@ std::vector<AxisPair> aligned_axes(const Model& model, Workspace<double>& w, std
   const ClosureStructure& c = m.closures[i];
   ClosureState<double>& pose = w.closures[i];
   update_closure_pose(m, c, model.parameters.closures[i], w.bodies.data(), pose);
-  unsigned blocked = 0;
-  for (int r = c.row_begin; r < c.row_end; ++r) {
-    blocked |= 1u << m.cut_rows[static_cast<std::size_t>(r)].direction;
-  }
+  const unsigned blocked = blocked_directions(m, c);
   const bool x = (blocked >> kTheta & 1u) && (blocked >> kPsi & 1u);
   const bool y = x && (blocked >> kPhi & 1u);
   const auto pair = [](const Vec3<double>& a, const Vec3<double>& b) {
@@ -202,7 +184,7 @@ State<double> perturbed(const Model& model, const std::vector<int>& free, const 
   const auto unit = [&] { return static_cast<double>(random() >> 11) * 0x1.0p-53 * 2.0 - 1.0; };
   VectorXd dq(static_cast<Eigen::Index>(free.size()));
   for (auto& x : dq) x = reach * unit();
-  return displaced(model.mechanism, s, scatter(dq, free, model.mechanism.nv));
+  return displaced(model.mechanism, s, scatter_entries(dq, free, model.mechanism.nv));
 }
 
 double distance(const Mechanism& m, const State<double>& a, const State<double>& b) {
@@ -220,7 +202,7 @@ void find_branch(const Model& model, const MatrixXd& jacobian, AssemblyReport& r
   report.mobility = model.mechanism.nv - report.rank;
   if (report.rank == 0 || report.rank < report.rows) return;
   const std::vector<int> free = free_velocities(model);
-  const MatrixXd j = columns_of(jacobian, free);
+  const MatrixXd j = take_columns(jacobian, free);
   if (j.cols() < j.rows()) return;
   const Eigen::ColPivHouseholderQR<MatrixXd> qr(j);
   std::vector<int> chosen;
@@ -228,7 +210,7 @@ void find_branch(const Model& model, const MatrixXd& jacobian, AssemblyReport& r
     chosen.push_back(free[static_cast<std::size_t>(qr.colsPermutation().indices()[i])]);
   }
   std::sort(chosen.begin(), chosen.end());
-  const double det = columns_of(jacobian, chosen).determinant();
+  const double det = take_columns(jacobian, chosen).determinant();
   report.dependent = chosen;
   report.branch = det > 0.0 ? 1 : det < 0.0 ? -1 : 0;
 }
@@ -265,8 +247,8 @@ void assemble_velocities(const Model& model, const MatrixXd& jacobian, State<dou
   // The threshold shapes the factorization: it has to be known before.
   Eigen::CompleteOrthogonalDecomposition<MatrixXd> j;
   j.setThreshold(kRankTolerance);
-  j.compute(columns_of(jacobian, free));
-  v += scatter(j.solve(-rate), free, model.mechanism.nv);
+  j.compute(take_columns(jacobian, free));
+  v += scatter_entries(j.solve(-rate), free, model.mechanism.nv);
   report.velocity_residual = (jacobian * v).norm() / scale;
 }
 
@@ -354,8 +336,8 @@ AssemblyReport assemble_start(const Model& closed, State<double>& start) {
   normalize_quaternions(m, start.q.data());
   const State<double> given = start;
   const ClosureScale scale = find_closure_scale(closed, start);
-  double scaled = scaled_equations(closed, scale, start).residual.norm();
   ClosureEquations e = compute_closure_equations(m, closed.parameters, start);
+  double scaled = scale.row.cwiseProduct(e.residual).norm();
   report.residual_given = report.residual = e.residual.norm();
   if (scaled > kClosedTolerance) {
     const std::vector<int> free = free_velocities(closed);

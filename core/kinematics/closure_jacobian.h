@@ -63,6 +63,11 @@ inline void add_point_rates(const M& m, const Parameters<Real>& p, const Workspa
   });
 }
 
+// Angular velocity and velocity of a point (6) by a velocity of its path, ground axes.
+Eigen::Matrix<double, 6, 1> twist_of(const Mechanism& m, const Parameters<double>& p,
+                                     const Workspace<double>& w, int k,
+                                     const Eigen::Vector3d& point);
+
 // J (rows, nv) of rows whose states a workspace holds.
 Eigen::MatrixXd row_jacobian(const Mechanism& m, const Parameters<double>& p,
                              const Workspace<double>& w, const std::vector<Row>& rows,

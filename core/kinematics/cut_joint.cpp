@@ -54,12 +54,16 @@ FrameMotion frame_motion(const ClosureFrame& pose, const BodyState<double>& body
 
 }  // namespace
 
-CutJoint cut_joint_of(const Mechanism& m, int closure) {
-  const ClosureStructure& c = m.closures[static_cast<std::size_t>(closure)];
+unsigned blocked_directions(const Mechanism& m, const ClosureStructure& c) {
   unsigned blocked = 0;
   for (int r = c.row_begin; r < c.row_end; ++r) {
     blocked |= 1u << m.cut_rows[static_cast<std::size_t>(r)].direction;
   }
+  return blocked;
+}
+
+CutJoint cut_joint_of(const Mechanism& m, int closure) {
+  const unsigned blocked = blocked_directions(m, m.closures[static_cast<std::size_t>(closure)]);
   CutJoint joint;
   for (int d = 0; d < kDirections; ++d) {
     if (blocked >> d & 1u) continue;

@@ -22,6 +22,9 @@ struct CutJoint {
   int velocity_count() const { return static_cast<int>(shifts.size()) + turns; }
 };
 
+// Directions that the cut rows of a closure block, as a bit mask (bit d for Direction d).
+unsigned blocked_directions(const Mechanism& m, const ClosureStructure& c);
+
 // Of a closure that counts as the exact joint of its type.
 CutJoint cut_joint_of(const Mechanism& m, int closure);
 

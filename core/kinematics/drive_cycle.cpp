@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "core/kinematics/pose_curve.h"
@@ -126,10 +125,15 @@ class Follower {
     return a.is_singular ? rescaled(a.continued, delta, none) : linkage_.rates(a.s, delta, none);
   }
 
+  // Towards `target`, as far as the course can be taken for straight.
+  double longest_time(double target) const {
+    const double left = target - place().time;
+    return std::copysign(std::min(std::abs(left), path_.longest_step()), left);
+  }
+
   // The step towards `target` over which the rates have this norm at most.
   Step choose_step(double length, double target) const {
-    const double left = target - place().time;
-    double h = std::copysign(std::min(std::abs(left), path_.longest_step()), left);
+    double h = longest_time(target);
     for (;;) {
       Step step{h, motion_over(h)};
       const double norm = step.motion.first.norm();
@@ -147,8 +151,7 @@ class Follower {
         linkage_.moved(a.s, r.first + 0.5 * r.second, path_.position(time));
     State<double> s = predicted;
     if (!linkage_.close(s)) return std::nullopt;
-    const Mechanism& m = linkage_.model().mechanism;
-    const double correction = scaled_difference(m, linkage_.scale(), predicted, s).norm();
+    const double correction = linkage_.difference(predicted, s).norm();
     if (correction > kCorrected * r.first.norm()) return std::nullopt;
     const DrivenRates b = linkage_.rates(s, r.drive, VectorXd::Zero(r.drive.size()));
     const VectorXd expected = r.first + r.second;
@@ -171,8 +174,7 @@ class Follower {
     if (b.is_singular) return kLongestStep;
     if (track_.size() < 2) return std::max(0.5 * kApproach * b.quality, kNearest);
     const Place& a = track_[track_.size() - 2];
-    const Mechanism& m = linkage_.model().mechanism;
-    const double apart = scaled_difference(m, linkage_.scale(), a.s, b.s).norm();
+    const double apart = linkage_.difference(a.s, b.s).norm();
     const double fall = a.quality - b.quality;
     if (!(fall > 0.0)) return kLongestStep;
     return std::max(kApproach * b.quality * apart / fall, kNearest);
@@ -193,11 +195,8 @@ class Follower {
 
   // A course that stands still for a while; false where steps have become too short.
   bool rest(const Step& step, double target) {
-    const bool is_whole =
-        step.h == target - place().time || std::abs(step.h) == path_.longest_step();
-    if (!is_whole) return false;
-    track_.back().time = place().time + step.h;
-    if (step.h == target - place().time) track_.back().time = target;
+    if (step.h != longest_time(target)) return false;
+    track_.back().time = time_after(step, target);
     return true;
   }
 
@@ -216,8 +215,13 @@ class Follower {
     return false;
   }
 
+  // The target itself, to the bit, where the step leads there.
+  double time_after(const Step& step, double target) const {
+    return step.h == target - place().time ? target : place().time + step.h;
+  }
+
   void add(Place next, const Step& step, double target) {
-    if (step.h == target - place().time) next.time = target;
+    next.time = time_after(step, target);
     track_.push_back(std::move(next));
     see_quality();
     if (track_.size() < 3) return;
@@ -236,9 +240,8 @@ class Follower {
 
   // Golden section for the lowest quality between two poses.
   void look_between(const Place& a, const Place& b) {
-    const Mechanism& m = linkage_.model().mechanism;
     const DrivenRates at_a = rates_at(a), at_b = rates_at(b);
-    const VectorXd d = scaled_difference(m, linkage_.scale(), a.s, b.s);
+    const VectorXd d = linkage_.difference(a.s, b.s);
     const double h = b.time - a.time;
     const auto between = [&](double x) {
       return linkage_.moved(a.s, interpolate(at_a, at_b, d, h, x), path_.position(a.time + x * h));
@@ -264,9 +267,8 @@ class Follower {
 
   // Where the drives go from here, a unit vector.
   VectorXd direction_to(double target) const {
-    const double left = target - place().time;
-    const double h = std::copysign(std::min(std::abs(left), path_.longest_step()), left);
-    const VectorXd way = path_.position(place().time + h) - path_.position(place().time);
+    const double later = place().time + longest_time(target);
+    const VectorXd way = path_.position(later) - path_.position(place().time);
     return linkage_.without_dimensions(way).normalized();
   }
 
@@ -296,25 +298,26 @@ class Follower {
       const auto reached = curve.at(place().s, length * tangent);
       const double way = reached ? curve.way_between(place().s, *reached) : -1.0;
       if (way <= 0.0) return false;
-      const double time = time_of(way, direction, target);
+      const std::optional<double> time = time_of(way, direction, target);
+      if (!time) continue;
       State<double> s =
-          linkage_.moved(*reached, VectorXd::Zero(reached->v.size()), path_.position(time));
-      if (std::isnan(time) || !linkage_.close(s)) continue;
-      track_.push_back({time, s, linkage_.quality(s), false, {}, {}});
+          linkage_.moved(*reached, VectorXd::Zero(reached->v.size()), path_.position(*time));
+      if (!linkage_.close(s)) continue;
+      track_.push_back({*time, s, linkage_.quality(s), false, {}, {}});
       stride_ = length;
       return true;
     }
     return false;
   }
 
-  // When the drives have gone a way along a direction; NaN if that is beyond `target`.
-  double time_of(double way, const VectorXd& direction, double target) const {
+  // When the drives have gone a way along a direction; nothing if that is beyond `target`.
+  std::optional<double> time_of(double way, const VectorXd& direction, double target) const {
     const VectorXd from = path_.position(place().time);
     const auto left = [&](double time) {
       return linkage_.without_dimensions(path_.position(time) - from).dot(direction) - way;
     };
     double low = place().time, high = target;
-    if (left(high) < 0.0) return std::numeric_limits<double>::quiet_NaN();
+    if (left(high) < 0.0) return std::nullopt;
     for (int i = 0; i < 100; ++i) {
       const double middle = 0.5 * (low + high);
       (left(middle) < 0.0 ? low : high) = middle;
@@ -330,8 +333,7 @@ class Follower {
   void note(double time, const State<double>& s) {
     SingularPosition p = describe_singular(linkage_, time, s);
     const auto is_same = [&](const SingularPosition& known) {
-      const Mechanism& m = linkage_.model().mechanism;
-      return scaled_difference(m, linkage_.scale(), known.s, s).norm() < kSamePosition;
+      return linkage_.difference(known.s, s).norm() < kSamePosition;
     };
     if (std::none_of(singular_.begin(), singular_.end(), is_same)) {
       singular_.push_back(std::move(p));
@@ -353,7 +355,7 @@ DrivenRates continue_from_neighbours(const DrivenLinkage& linkage, const Mobilit
   DrivenRates rates = linkage.rates(start, direction, VectorXd::Zero(direction.size()));
   double best = 0.0;
   for (const State<double>& s : mobility.neighbours) {
-    const VectorXd d = scaled_difference(linkage.model().mechanism, linkage.scale(), start, s);
+    const VectorXd d = linkage.difference(start, s);
     const VectorXd driven =
         linkage.without_dimensions(linkage.drive_position(s) - linkage.drive_position(start));
     const double along = driven.dot(direction) / direction.norm();

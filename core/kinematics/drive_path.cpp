@@ -92,7 +92,7 @@ double DrivePath::longest_step() const {
 }
 
 DriveMotion DrivePath::at(double t) const {
-  const Index n = count();
+  const auto n = static_cast<Index>(courses_.size());
   DriveMotion motion{VectorXd(n), VectorXd(n), VectorXd(n)};
   for (Index i = 0; i < n; ++i) {
     const auto k = static_cast<std::size_t>(i);

@@ -29,7 +29,6 @@ class DrivePath {
   double duration() const { return duration_; }
   // Over a longer time a course could turn and come back unseen; infinite where all are linear.
   double longest_step() const;
-  int count() const { return static_cast<int>(courses_.size()); }
   const std::vector<DriveCourse>& courses() const { return courses_; }
 
   Eigen::VectorXd position(double t) const { return at(t).position; }

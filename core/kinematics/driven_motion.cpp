@@ -146,10 +146,15 @@ void DrivenLinkage::find_branch_rows(const std::vector<const State<double>*>& po
   if (static_cast<int>(branch_rows_.size()) != rank_) branch_rows_.clear();
 }
 
-void DrivenLinkage::find_size(const State<double>& pose) {
+std::vector<int> DrivenLinkage::columns_of_m_and_n() const {
   std::vector<int> all = dependent_;
   all.insert(all.end(), driven_.begin(), driven_.end());
-  const MatrixXd r = take_columns(compute_scaled_closures(*closed_, scale_, pose).jacobian, all);
+  return all;
+}
+
+void DrivenLinkage::find_size(const State<double>& pose) {
+  const MatrixXd r =
+      take_columns(compute_scaled_closures(*closed_, scale_, pose).jacobian, columns_of_m_and_n());
   size_ = r.size() == 0 ? 1.0 : std::max(Svd(r).singularValues()[0], kLeastRowSize);
 }
 
@@ -158,13 +163,11 @@ MatrixXd DrivenLinkage::dependent_jacobian(const State<double>& s) const {
 }
 
 DriveRanks DrivenLinkage::ranks(const State<double>& s, double tolerance) const {
-  std::vector<int> all = dependent_;
-  all.insert(all.end(), driven_.begin(), driven_.end());
   const MatrixXd j = compute_scaled_closures(*closed_, scale_, s).jacobian;
   const int z = static_cast<int>(dependent_.size());
   const double least = std::max(kLeastRowSize, size_);
   return {z, numerical_rank(take_columns(j, dependent_), tolerance, least).rank,
-          numerical_rank(take_columns(j, all), tolerance, least).rank};
+          numerical_rank(take_columns(j, columns_of_m_and_n()), tolerance, least).rank};
 }
 
 VectorXd DrivenLinkage::drive_position(const State<double>& s) const {
@@ -265,6 +268,10 @@ int DrivenLinkage::branch(const State<double>& s) const {
 
 double DrivenLinkage::residual(const State<double>& s) const {
   return compute_scaled_closures(*closed_, scale_, s).residual.norm();
+}
+
+VectorXd DrivenLinkage::difference(const State<double>& a, const State<double>& b) const {
+  return scaled_difference(closed_->mechanism, scale_, a, b);
 }
 
 std::vector<std::string> DrivenLinkage::loose_joints(const State<double>& s) const {

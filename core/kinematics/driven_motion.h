@@ -90,6 +90,8 @@ class DrivenLinkage {
                     const Eigen::VectorXd& second_rate) const;
   double quality(const State<double>& s) const;
   double residual(const State<double>& s) const;  // norm of the scaled rows
+  // b less a (nv), without dimensions.
+  Eigen::VectorXd difference(const State<double>& a, const State<double>& b) const;
 
   // Singular values below this part of the largest count as zero.
   DriveRanks ranks(const State<double>& s, double tolerance) const;
@@ -107,6 +109,7 @@ class DrivenLinkage {
   bool find_rank(const std::vector<const State<double>*>& poses);
   void find_branch_rows(const std::vector<const State<double>*>& poses);
   void find_size(const State<double>& pose);
+  std::vector<int> columns_of_m_and_n() const;
   Eigen::MatrixXd dependent_jacobian(const State<double>& s) const;
   Eigen::VectorXd turning_of_least_norm(const State<double>& s, const Eigen::MatrixXd& jacobian,
                                         const Eigen::JacobiSVD<Eigen::MatrixXd>& svd,

@@ -42,19 +42,9 @@ MatrixXd twists_of(const Model& closed, const ClosureScale& scale, const State<d
     const Body& body = m.bodies[static_cast<std::size_t>(b)];
     s.middleRows<6>(6 * b) = s.middleRows<6>(6 * body.parent);
     for (int k = body.v_begin; k < body.v_begin + body.v_count; ++k) {
-      const auto i = static_cast<std::size_t>(k);
-      const Vec3<double>& p = w.bodies[static_cast<std::size_t>(b)].p;
-      const Eigen::Vector3d e(w.axes[i].x, w.axes[i].y, w.axes[i].z);
-      const Velocity& v = m.velocities[i];
-      const double pitch = closed.parameters.pitch[static_cast<std::size_t>(v.stage)];
-      if (v.kind == VelocityKind::translation) {
-        s.block<3, 1>(6 * b + 3, k) = e * scale.velocity[k] / scale.extent;
-        continue;
-      }
-      s.block<3, 1>(6 * b, k) = e;
-      Eigen::Vector3d shift = Eigen::Vector3d(p.x, p.y, p.z).cross(e);
-      if (v.kind == VelocityKind::screw) shift += pitch * e;
-      s.block<3, 1>(6 * b + 3, k) = shift / scale.extent;
+      const Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+      s.block<6, 1>(6 * b, k) = scale.velocity[k] * twist_of(m, closed.parameters, w, k, origin);
+      s.block<3, 1>(6 * b + 3, k) /= scale.extent;
     }
   }
   return s;

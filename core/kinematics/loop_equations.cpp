@@ -17,18 +17,6 @@ using Eigen::VectorXd;
 using Elements = Eigen::Matrix<double, kElements, 1>;
 using Twist = Eigen::Matrix<double, 6, 1>;
 
-// omega and the velocity of a point by one velocity.
-Twist twist_of(const Model& closed, const Workspace<double>& w, int k, const Vector3d& point) {
-  const Mechanism& m = closed.mechanism;
-  const auto i = static_cast<std::size_t>(k);
-  const bool turns = m.velocities[i].kind != VelocityKind::translation;
-  Twist twist;
-  twist.head<3>() = turns ? to_eigen(w.axes[i]) : Vector3d::Zero();
-  twist.tail<3>() =
-      to_eigen(point_rate(m, closed.parameters, w, k, {point.x(), point.y(), point.z()}));
-  return twist;
-}
-
 // Rates of the elements of a frame's pose in the common body, which rests.
 Elements element_rates(const Matrix3d& common, const Matrix3d& rotation, const Twist& twist,
                        double extent) {
@@ -113,10 +101,12 @@ MatrixXd LoopEquations::jacobian(const State<double>& s, const VectorXd& cut_pos
     return element_rates(f.common, frame.rotation, twist, scale_.extent);
   };
   for (const int k : loop_.first) {
-    j.col(k) = scale_.velocity[k] * rates(f.reached, twist_of(closed_, f.w, k, f.reached.position));
+    j.col(k) = scale_.velocity[k] * rates(f.reached, twist_of(closed_.mechanism, closed_.parameters,
+                                                              f.w, k, f.reached.position));
   }
   for (const int k : loop_.second) {
-    j.col(k) = -scale_.velocity[k] * rates(f.second, twist_of(closed_, f.w, k, f.second.position));
+    j.col(k) = -scale_.velocity[k] * rates(f.second, twist_of(closed_.mechanism, closed_.parameters,
+                                                              f.w, k, f.second.position));
   }
   const MatrixXd cut = cut_joint_twists(joint_, f.first, f.reached);
   for (int i = 0; i < joint_.velocity_count(); ++i) {
