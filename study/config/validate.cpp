@@ -36,12 +36,12 @@ std::string subject_of(const Scope& scope) {
   return above + (dotted ? "." : "") + std::string(scope.key);
 }
 
-std::string described_type(const KeyRow& row) {
+std::string described_type(const KeyRow& row, KeyType type) {
   std::string unit = row.unit.empty() || row.unit == "1" ? std::string() : " in " + row.unit;
   for (std::size_t at = 0; (at = unit.find('|', at)) != std::string::npos;) {
     unit.replace(at, 1, " or ");
   }
-  switch (row.type) {
+  switch (type) {
     case KeyType::number:
       return "a number" + unit;
     case KeyType::number_or_table:
@@ -74,6 +74,10 @@ std::string described_type(const KeyRow& row) {
       break;
   }
   return "a table";
+}
+
+std::string described_type(const KeyRow& row) {
+  return described_type(row, row.type);
 }
 
 std::string type_remedy(const KeyNode& node) {
@@ -394,9 +398,8 @@ bool convert_text(Tree& value, const KeyRow& row, const std::string& subject,
     value.kind = Kind::invalid;
     return false;
   };
-  KeyRow single = row;
-  if (row.type == KeyType::numbers) single.type = KeyType::number;
-  const std::string wanted = described_type(single);
+  const bool is_one_of_many = row.type == KeyType::numbers;
+  const std::string wanted = described_type(row, is_one_of_many ? KeyType::number : row.type);
   const std::string example = row.unit.empty()
                                   ? "write a plain number"
                                   : fmt::format("write a number, or a text such as \"1.5 {}\"",

@@ -52,4 +52,13 @@ Override set(const std::string& assignment) {
   return *override;
 }
 
+ModelInput read_good(const std::string& text, const std::vector<std::string>& sets) {
+  Diagnostics diagnostics;
+  std::vector<Override> overrides;
+  for (const std::string& assignment : sets) overrides.push_back(set(assignment));
+  std::optional<ModelInput> input = read_text(text, diagnostics, overrides);
+  EXPECT_TRUE(input) << to_string(diagnostics);
+  return input.value_or(ModelInput{});
+}
+
 }  // namespace linkstudy::test

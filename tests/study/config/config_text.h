@@ -24,4 +24,7 @@ std::optional<ModelInput> read_text(const std::string& text, Diagnostics& diagno
 
 Override set(const std::string& assignment);
 
+// The model of a text that must be right, with "path=value" texts set.
+ModelInput read_good(const std::string& text, const std::vector<std::string>& sets = {});
+
 }  // namespace linkstudy::test

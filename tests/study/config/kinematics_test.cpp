@@ -14,6 +14,7 @@ namespace linkstudy {
 namespace {
 
 using test::kRsrrp;
+using test::read_good;
 using test::read_text;
 using test::replaced;
 using test::Wrong;
@@ -46,15 +47,6 @@ position = ["1 cm", 0.5, 0]
 name = "post"
 link = "ground"
 )";
-
-ModelInput good(const std::string& text, const std::vector<std::string>& sets = {}) {
-  Diagnostics diagnostics;
-  std::vector<Override> overrides;
-  for (const std::string& assignment : sets) overrides.push_back(test::set(assignment));
-  std::optional<ModelInput> input = read_text(text, diagnostics, overrides);
-  EXPECT_TRUE(input) << to_string(diagnostics);
-  return input.value_or(ModelInput{});
-}
 
 // The reference linkage with a ball joint in quaternions at R: nothing else of it changes.
 std::string with_ball(const std::string& text) {
@@ -135,7 +127,7 @@ TEST_P(WrongCourse, Gives_one_error_at_the_marked_place) {
 INSTANTIATE_TEST_SUITE_P(Courses, WrongCourse, testing::ValuesIn(kWrong), name_of_case);
 
 TEST(Course, Is_read_key_by_key) {
-  const KinematicsOptions course = good(kRsrrp + kCourse).kinematics;
+  const KinematicsOptions course = read_good(kRsrrp + kCourse).kinematics;
   EXPECT_EQ(course.positions, 11);
   EXPECT_EQ(course.duration, 2.0);
   ASSERT_EQ(course.drives.size(), 2u);
@@ -154,7 +146,7 @@ TEST(Course, Is_read_key_by_key) {
 }
 
 TEST(Course, Has_a_linear_drive_and_73_positions_where_nothing_else_is_said) {
-  const ModelInput input = good(kRsrrp + "[[kinematics.drive]]\njoint = \"Q\"\n");
+  const ModelInput input = read_good(kRsrrp + "[[kinematics.drive]]\njoint = \"Q\"\n");
   EXPECT_EQ(input.kinematics.positions, 73);
   EXPECT_FALSE(input.kinematics.duration);
   ASSERT_EQ(input.kinematics.drives.size(), 1u);
@@ -171,7 +163,7 @@ TEST(Course, Several_coordinates_of_one_joint_are_driven_but_none_of_a_quaternio
   const auto drive = [](int i) {
     return "[[kinematics.drive]]\njoint = \"R\"\ncoordinate = " + std::to_string(i) + "\n";
   };
-  EXPECT_EQ(good(ball + drive(0) + drive(2)).kinematics.drives[1].coordinate, 2);
+  EXPECT_EQ(read_good(ball + drive(0) + drive(2)).kinematics.drives[1].coordinate, 2);
   for (const int i : {0, 3}) {
     Diagnostics diagnostics;
     EXPECT_FALSE(read_text(with_ball(kRsrrp) + drive(i), diagnostics));
@@ -201,12 +193,12 @@ TEST(Course, A_joint_that_was_reported_is_not_reported_by_its_drive) {
 
 TEST(Course, Its_numbers_are_set_by_their_paths) {
   const ModelInput input =
-      good(kRsrrp + kCourse, {"kinematics.positions=5", "kinematics.drive.0.to=90 deg",
-                              "kinematics.drive.1.positions.1=0.27"});
+      read_good(kRsrrp + kCourse, {"kinematics.positions=5", "kinematics.drive.0.to=90 deg",
+                                   "kinematics.drive.1.positions.1=0.27"});
   EXPECT_EQ(input.kinematics.positions, 5);
   EXPECT_DOUBLE_EQ(*input.kinematics.drives[0].to, kPi / 2.0);
   EXPECT_EQ(input.kinematics.drives[1].positions[1], 0.27);
-  EXPECT_EQ(good(kRsrrp, {"kinematics.positions=5"}).kinematics.positions, 5);
+  EXPECT_EQ(read_good(kRsrrp, {"kinematics.positions=5"}).kinematics.positions, 5);
   Diagnostics diagnostics;
   const auto model = ModelDocument::parse(kRsrrp + kCourse, "model.toml", diagnostics);
   EXPECT_EQ(parameter_for(*model, "kinematics.drive.0.to")->unit, "rad");
@@ -215,7 +207,7 @@ TEST(Course, Its_numbers_are_set_by_their_paths) {
 }
 
 TEST(Points, Are_read_and_their_numbers_set_by_their_paths) {
-  const ModelInput input = good(kRsrrp + kPoint, {"point.tip.position.2=-2 mm"});
+  const ModelInput input = read_good(kRsrrp + kPoint, {"point.tip.position.2=-2 mm"});
   const std::vector<ChosenPoint>& points = input.linkage.points;
   ASSERT_EQ(points.size(), 2u);
   EXPECT_EQ(points[0].name, "tip");
@@ -224,7 +216,7 @@ TEST(Points, Are_read_and_their_numbers_set_by_their_paths) {
   EXPECT_EQ(points[1].link, "ground");
   EXPECT_EQ(points[1].position, Eigen::Vector3d::Zero());
   const ModelInput moved =
-      good(kRsrrp + kPoint, {"point.tip.position=[1, 2, 3]", "point.tip.link=yoke"});
+      read_good(kRsrrp + kPoint, {"point.tip.position=[1, 2, 3]", "point.tip.link=yoke"});
   EXPECT_EQ(moved.linkage.points[0].position, Eigen::Vector3d(1, 2, 3));
   EXPECT_EQ(moved.linkage.points[0].link, "yoke");
   Diagnostics diagnostics;
@@ -233,19 +225,19 @@ TEST(Points, Are_read_and_their_numbers_set_by_their_paths) {
 }
 
 TEST(Points, Of_a_flexible_link_stay_with_it_on_the_rigid_linkage) {
-  const ModelInput input = good(test::real_joints_text() + kPoint);
+  const ModelInput input = read_good(test::real_joints_text() + kPoint);
   EXPECT_EQ(input.linkage.points[0].link, "coupler_rfe4");
   EXPECT_EQ(input.rigid.points[0].link, "coupler");
 }
 
 TEST(Resolved, A_model_without_points_and_courses_is_resolved_without_them) {
-  const ModelInput input = good(kRsrrp);
+  const ModelInput input = read_good(kRsrrp);
   EXPECT_EQ(input.resolved.find("point"), nullptr);
   EXPECT_EQ(input.resolved.find("kinematics"), nullptr);
 }
 
 TEST(Resolved, Points_and_courses_read_back_to_themselves) {
-  Tree resolved = good(kRsrrp + kCourse + kPoint).resolved;
+  Tree resolved = read_good(kRsrrp + kCourse + kPoint).resolved;
   Diagnostics diagnostics;
   std::optional<Tree> again = parse_toml(write_toml(resolved), "resolved.toml", diagnostics);
   ASSERT_TRUE(again) << to_string(diagnostics);

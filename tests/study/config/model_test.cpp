@@ -16,21 +16,13 @@ namespace linkstudy {
 namespace {
 
 using test::kRsrrp;
+using test::read_good;
 using test::read_text;
 using test::replaced;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
 constexpr double kPi = std::numbers::pi;
-
-ModelInput read_good(const std::string& text, std::vector<std::string> sets = {}) {
-  Diagnostics diagnostics;
-  std::vector<Override> overrides;
-  for (const std::string& assignment : sets) overrides.push_back(test::set(assignment));
-  std::optional<ModelInput> input = read_text(text, diagnostics, overrides);
-  EXPECT_TRUE(input) << to_string(diagnostics);
-  return input.value_or(ModelInput{});
-}
 
 TEST(Model, The_reference_linkage_is_read_link_by_link) {
   const ModelInput input = read_good(kRsrrp);

@@ -15,6 +15,7 @@ namespace linkstudy {
 namespace {
 
 using test::kRsrrp;
+using test::read_good;
 using test::read_text;
 using test::replaced;
 using testing::ElementsAre;
@@ -43,15 +44,6 @@ std::string with_beam(const std::string& rest) {
                   std::string(kCoupler) + "flexible = { " + kSteel + ", " + rest + " }\n");
 }
 
-ModelInput good(const std::string& text, const std::vector<std::string>& sets = {}) {
-  Diagnostics diagnostics;
-  std::vector<Override> overrides;
-  for (const std::string& assignment : sets) overrides.push_back(test::set(assignment));
-  std::optional<ModelInput> input = read_text(text, diagnostics, overrides);
-  EXPECT_TRUE(input) << to_string(diagnostics);
-  return input.value_or(ModelInput{});
-}
-
 // As read, before flexible links become chains of elements.
 FlexibleBeam beam_of(const std::string& text) {
   Diagnostics diagnostics;
@@ -64,7 +56,7 @@ FlexibleBeam beam_of(const std::string& text) {
 }
 
 TEST(RealJoints, A_clearance_with_its_contact_and_friction_is_read_key_by_key) {
-  const ModelInput input = good(real_closure(), {"closure.S.model=clearance"});
+  const ModelInput input = read_good(real_closure(), {"closure.S.model=clearance"});
   const Closure& closure = input.linkage.closures[0];
   EXPECT_EQ(closure.model, ClosureModel::clearance);
   const Clearance& c = closure.clearance;
@@ -97,7 +89,7 @@ TEST(RealJoints, One_word_switches_between_the_models_of_a_closure) {
   for (const auto& [word, model] :
        {std::pair("cut", ClosureModel::cut), std::pair("sde", ClosureModel::sde),
         std::pair("clearance", ClosureModel::clearance)}) {
-    const ModelInput input = good(real_closure(), {std::string("closure.S.model=") + word});
+    const ModelInput input = read_good(real_closure(), {std::string("closure.S.model=") + word});
     EXPECT_EQ(input.linkage.closures[0].model, model);
     EXPECT_EQ(input.linkage.closures[0].clearance.radial, 1e-3);
   }
@@ -107,7 +99,7 @@ TEST(RealJoints, Defaults_of_a_contact_are_steel_and_are_written_where_there_is_
   const std::string text =
       replaced(replaced(kRsrrp, "type = \"spherical\"", "type = \"revolute\""), "model  = \"cut\"",
                "model = \"clearance\"\nclearance = { radial = 1e-3, bearing_radius = 5e-3 }");
-  const ModelInput input = good(text);
+  const ModelInput input = read_good(text);
   const Clearance& c = input.linkage.closures[0].clearance;
   EXPECT_EQ(c.kind, ClearanceKind::planar);
   EXPECT_FALSE(c.bearing_is_first);
@@ -122,17 +114,17 @@ TEST(RealJoints, Defaults_of_a_contact_are_steel_and_are_written_where_there_is_
   const Tree& closure = input.resolved.find("closure")->items[0];
   EXPECT_EQ(closure.find("contact")->find("restitution")->number, 0.9);
   EXPECT_EQ(closure.find("contact")->find("journal")->find("poisson")->number, 0.3);
-  EXPECT_EQ(good(kRsrrp).resolved.find("closure")->items[0].find("contact"), nullptr);
+  EXPECT_EQ(read_good(kRsrrp).resolved.find("closure")->items[0].find("contact"), nullptr);
 }
 
 TEST(RealJoints, Friction_goes_off_by_one_word_in_closures_and_joints) {
-  EXPECT_FALSE(good(real_closure(), {"closure.S.friction.enabled=false"})
+  EXPECT_FALSE(read_good(real_closure(), {"closure.S.friction.enabled=false"})
                    .linkage.closures[0]
                    .clearance.friction);
   const std::vector<std::string> sets = {
       "joint.A.friction={ mu_s = 0.3, mu_k = 0.2, sigma0 = 1e5, radius = \"8 mm\", length = 0.04, "
       "preload = \"0.1 kN\" }"};
-  const std::optional<JointFriction> on = good(kRsrrp, sets).linkage.joints[0].friction;
+  const std::optional<JointFriction> on = read_good(kRsrrp, sets).linkage.joints[0].friction;
   ASSERT_TRUE(on);
   EXPECT_EQ(on->law.mu_s, 0.3);
   EXPECT_EQ(on->law.v_s, 0.01);
@@ -141,13 +133,13 @@ TEST(RealJoints, Friction_goes_off_by_one_word_in_closures_and_joints) {
   EXPECT_EQ(on->length, 0.04);
   EXPECT_EQ(on->preload, 100.0);
   EXPECT_FALSE(
-      good(kRsrrp, {sets[0], "joint.A.friction.enabled=false"}).linkage.joints[0].friction);
+      read_good(kRsrrp, {sets[0], "joint.A.friction.enabled=false"}).linkage.joints[0].friction);
 }
 
 TEST(RealJoints, Springs_take_the_units_of_their_coordinates) {
-  const ModelInput input =
-      good(kRsrrp, {"joint.P.spring={ stiffness = [\"2 kN/m\"], rest = [\"20 cm\"] }",
-                    "joint.A.spring.stiffness=[\"3 N m/deg\"]", "joint.A.spring.damping.0=0.5"});
+  const ModelInput input = read_good(
+      kRsrrp, {"joint.P.spring={ stiffness = [\"2 kN/m\"], rest = [\"20 cm\"] }",
+               "joint.A.spring.stiffness=[\"3 N m/deg\"]", "joint.A.spring.damping.0=0.5"});
   const Joint& a = input.linkage.joints[0];
   const Joint& p = input.linkage.joints[1];
   ASSERT_EQ(a.stiffness.size(), 1u);
@@ -167,7 +159,7 @@ TEST(RealJoints, Springs_take_the_units_of_their_coordinates) {
 TEST(RealJoints, A_flexible_link_becomes_a_chain_of_one_element_more_than_segments) {
   const std::string text = with_beam("section = { shape = \"circle\", diameter = \"22 mm\" }");
   const auto links = [&](const std::vector<std::string>& sets) {
-    return good(text, sets).linkage.links.size();
+    return read_good(text, sets).linkage.links.size();
   };
   EXPECT_EQ(links({}), 3u + 5u);
   EXPECT_EQ(links({"link.coupler.flexible.segments=7"}), 3u + 8u);
@@ -245,16 +237,17 @@ TEST(RealJoints, Torsion_of_a_rectangle_agrees_with_a_double_series) {
 }
 
 TEST(RealJoints, Integrators_and_their_tolerances_are_read) {
-  EXPECT_EQ(good(kRsrrp).options.integrator, Integrator::rk4);
+  EXPECT_EQ(read_good(kRsrrp).options.integrator, Integrator::rk4);
   const SimulationOptions options =
-      good(kRsrrp, {"simulation.integrator=adaptive", "simulation.tolerance.relative=1e-6",
-                    "simulation.step_limit=2000"})
+      read_good(kRsrrp, {"simulation.integrator=adaptive", "simulation.tolerance.relative=1e-6",
+                         "simulation.step_limit=2000"})
           .options;
   EXPECT_EQ(options.integrator, Integrator::adaptive);
   EXPECT_EQ(options.relative_tolerance, 1e-6);
   EXPECT_EQ(options.absolute_tolerance, 1e-10);
   EXPECT_EQ(options.step_limit, 2000);
-  EXPECT_EQ(good(kRsrrp, {"simulation.integrator=stiff"}).options.integrator, Integrator::stiff);
+  EXPECT_EQ(read_good(kRsrrp, {"simulation.integrator=stiff"}).options.integrator,
+            Integrator::stiff);
 }
 
 TEST(RealJoints, A_resolved_text_with_everything_reads_back_to_itself) {
@@ -263,10 +256,10 @@ TEST(RealJoints, A_resolved_text_with_everything_reads_back_to_itself) {
                std::string(kCoupler) + "flexible = { " + kSteel +
                    ", section = { shape = \"rectangle\", width = 0.01, height = 0.02 } }\n");
   const ModelInput input =
-      good(text, {"closure.S.model=clearance", "joint.A.spring.damping.0=0.5",
-                  "joint.P.friction={ mu_s = 0.2, mu_k = 0.2, sigma0 = 1e4 }"});
+      read_good(text, {"closure.S.model=clearance", "joint.A.spring.damping.0=0.5",
+                       "joint.P.friction={ mu_s = 0.2, mu_k = 0.2, sigma0 = 1e4 }"});
   const std::string resolved = write_toml(input.resolved);
-  EXPECT_EQ(write_toml(good(resolved).resolved), resolved);
+  EXPECT_EQ(write_toml(read_good(resolved).resolved), resolved);
 }
 
 }  // namespace
