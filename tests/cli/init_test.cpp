@@ -25,7 +25,7 @@ const std::string kShortMatch = kShort + " -s 'match.0.window=[0.02, 0.1]'";
 
 class Init : public Program {
  protected:
-  Init() { setenv("LINKSTUDY", LINKSTUDY_PROGRAM, 1); }
+  Init() { setenv("LINKSTUDY", kProgram, 1); }
   ~Init() override { unsetenv("LINKSTUDY"); }
 };
 
@@ -129,7 +129,7 @@ TEST_F(Init, The_batch_script_runs_its_study_with_what_mpirun_finds) {
   EXPECT_THAT(left_behind(), ElementsAre("model.toml", "study.sbatch", "study.toml"));
   const std::string text = read_text(path("study.sbatch"));
   EXPECT_THAT(text, HasSubstr("#SBATCH --requeue"));
-  EXPECT_THAT(text, HasSubstr("linkstudy=${LINKSTUDY:-" LINKSTUDY_PROGRAM "}"));
+  EXPECT_THAT(text, HasSubstr("linkstudy=${LINKSTUDY:-" + std::string(kProgram) + "}"));
   const std::string command =
       "cd '" + path("").string() + "' && bash study.sbatch --fresh" + kShortMatch + " > log 2>&1";
   EXPECT_EQ(std::system(command.c_str()), 0) << read_text(path("log"));

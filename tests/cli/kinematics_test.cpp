@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "tests/cli/program.h"
+#include "tests/support/source_file.h"
 
 namespace linkstudy::testing {
 namespace {
@@ -20,7 +21,7 @@ using ::testing::IsEmpty;
 class Kinematics : public Program {
  protected:
   static std::string model(const std::string& name) {
-    return std::string(LINKSTUDY_SOURCE_DIR) + "/configs/mechanisms/" + name + ".toml";
+    return source_file("configs/mechanisms/" + name + ".toml");
   }
   Ended analyse(const std::string& name, const std::string& options = "") const {
     return run("kinematics " + model(name) + " " + options);

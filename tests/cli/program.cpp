@@ -15,13 +15,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kProgram = LINKSTUDY_PROGRAM;
-
 int code_of(int status) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
 }  // namespace
+
+const char* const kProgram = LINKSTUDY_PROGRAM;
 
 std::string read_text(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);

@@ -17,6 +17,9 @@ struct Ended {
   std::string err;
 };
 
+// Where the built program is.
+extern const char* const kProgram;
+
 std::string read_text(const std::filesystem::path& path);
 
 // Every test has an empty directory, which is the current one of what it runs.

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "tests/cli/program.h"
+#include "tests/support/source_file.h"
 
 namespace linkstudy::testing {
 namespace {
@@ -56,8 +57,7 @@ TEST_F(Verbs, Describe_prints_one_key_and_all_keys) {
   EXPECT_THAT(one.out, HasSubstr("kg"));
   const Ended all = run("describe");
   EXPECT_THAT(all.out, HasSubstr(one.out.substr(0, one.out.find('\n'))));
-  EXPECT_EQ(run("describe --markdown").out,
-            read_text(std::string(LINKSTUDY_SOURCE_DIR) + "/configs/README.md"));
+  EXPECT_EQ(run("describe --markdown").out, read_text(source_file("configs/README.md")));
 }
 
 TEST_F(Verbs, Simulate_tells_assembly_equilibrium_and_step_limit) {

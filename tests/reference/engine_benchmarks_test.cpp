@@ -13,6 +13,7 @@
 #include "tests/support/csv.h"
 #include "tests/support/engine_probe.h"
 #include "tests/support/random.h"
+#include "tests/support/source_file.h"
 
 namespace linkstudy::testing {
 namespace {
@@ -135,8 +136,7 @@ TEST(EngineBenchmarks, The_four_bar_stays_on_its_closed_form) {
 }
 
 TEST(EngineBenchmarks, The_spatial_slider_crank_follows_the_published_series_with_its_energy) {
-  const Csv published =
-      read_csv(LINKSTUDY_SOURCE_DIR "/tests/reference/spatial_slider_crank_gonzalez.csv");
+  const Csv published = read_csv(source_file("tests/reference/spatial_slider_crank_gonzalez.csv"));
   const std::vector<double>& x = published.column("x_slider_m");
   for (const Linkage& linkage : {spatial_slider_crank(), spatial_slider_crank_cut_at_universal()}) {
     const Samples s = run(compile(linkage), steps_of(2.5e-4, 5.0, 1e-2),

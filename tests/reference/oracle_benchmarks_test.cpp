@@ -10,6 +10,7 @@
 #include "tests/mechanisms/spatial_slider_crank.h"
 #include "tests/support/csv.h"
 #include "tests/support/near.h"
+#include "tests/support/source_file.h"
 #include "tests/support/trace_formulas.h"
 
 namespace linkstudy::testing {
@@ -79,8 +80,7 @@ TEST(OracleBenchmarks, The_spatial_slider_crank_starts_with_the_published_energy
 }
 
 TEST(OracleBenchmarks, The_spatial_slider_crank_follows_the_published_series) {
-  const Csv published =
-      read_csv(LINKSTUDY_SOURCE_DIR "/tests/reference/spatial_slider_crank_gonzalez.csv");
+  const Csv published = read_csv(source_file("tests/reference/spatial_slider_crank_gonzalez.csv"));
   const std::vector<double>& t = published.column("t_s");
   const std::vector<double>& x = published.column("x_slider_m");
   ASSERT_EQ(t.size(), 501u);

@@ -14,6 +14,7 @@
 #include "tests/mechanisms/spatial_slider_crank.h"
 #include "tests/support/csv.h"
 #include "tests/support/engine_probe.h"
+#include "tests/support/source_file.h"
 #include "tests/support/zyx_equivalent.h"
 
 namespace linkstudy::testing {
@@ -95,8 +96,7 @@ TEST(LocatedRun, The_pendulum_returns_after_its_published_period) {
 }
 
 TEST(LocatedRun, The_spatial_slider_crank_follows_the_published_series_with_its_energy) {
-  const Csv published =
-      read_csv(LINKSTUDY_SOURCE_DIR "/tests/reference/spatial_slider_crank_gonzalez.csv");
+  const Csv published = read_csv(source_file("tests/reference/spatial_slider_crank_gonzalez.csv"));
   const std::vector<double>& x = published.column("x_slider_m");
   const Model model = compile(spatial_slider_crank());
   for (const Integrator integrator : kAdaptive) {

@@ -12,6 +12,7 @@
 #include "study/config/model_document.h"
 #include "study/specialize/fixed_kernels.h"
 #include "tests/support/simd_levels.h"
+#include "tests/support/source_file.h"
 
 namespace linkstudy {
 namespace {
@@ -20,8 +21,8 @@ ModelInput read_config(const std::string& name, const std::vector<std::string>& 
   Diagnostics diagnostics;
   std::vector<Override> overrides;
   for (const std::string& text : set) overrides.push_back(*parse_set(text, diagnostics));
-  const auto document = ModelDocument::load(
-      std::string(LINKSTUDY_SOURCE_DIR) + "/configs/mechanisms/" + name, diagnostics);
+  const auto document =
+      ModelDocument::load(testing::source_file("configs/mechanisms/" + name), diagnostics);
   return *document->with(overrides, diagnostics);
 }
 
