@@ -1,7 +1,9 @@
 #include "study/config/toml_reader.h"
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
+
+#include "study/config/toml_parser.h"
+#include "study/config/toml_text.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -17,42 +19,6 @@ using File = std::shared_ptr<const std::string>;
 
 Location at(const File& file, const toml::source_region& source) {
   return {file, static_cast<int>(source.begin.line), static_cast<int>(source.begin.column)};
-}
-
-// Length of the UTF-8 sequence that starts at `text[i]`, 0 when there is none (overlong forms,
-// surrogates and values above U+10FFFF included).
-std::size_t utf8_length(std::string_view text, std::size_t i) {
-  const auto byte = [&](std::size_t k) {
-    return i + k < text.size() ? static_cast<unsigned char>(text[i + k]) : 0u;
-  };
-  const unsigned first = byte(0);
-  if (first < 0x80) return 1;
-  const std::size_t length = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
-  if (first < 0xC2 || first > 0xF4) return 0;
-  for (std::size_t k = 1; k < length; ++k) {
-    if ((byte(k) & 0xC0u) != 0x80u) return 0;
-  }
-  const bool overlong = (first == 0xE0 && byte(1) < 0xA0) || (first == 0xF0 && byte(1) < 0x90);
-  const bool outside = (first == 0xED && byte(1) > 0x9F) || (first == 0xF4 && byte(1) > 0x8F);
-  return overlong || outside ? 0 : length;
-}
-
-bool require_utf8(std::string_view text, const File& file, Diagnostics& diagnostics) {
-  int line = 1, column = 1;
-  for (std::size_t i = 0; i < text.size();) {
-    const std::size_t length = utf8_length(text, i);
-    if (length == 0) {
-      diagnostics.add({file, line, column},
-                      fmt::format("the file is not UTF-8 text, got byte 0x{:02X}",
-                                  static_cast<unsigned char>(text[i])),
-                      "save it as UTF-8; results and archives are not inputs");
-      return false;
-    }
-    column = text[i] == '\n' ? 1 : column + 1;
-    line += text[i] == '\n' ? 1 : 0;
-    i += length;
-  }
-  return true;
 }
 
 class Converter {
@@ -152,7 +118,7 @@ std::optional<std::string> read_text_file(const std::string& path, Diagnostics& 
 std::optional<Tree> parse_toml(std::string_view text, const std::string& file,
                                Diagnostics& diagnostics) {
   const File shared = std::make_shared<const std::string>(file);
-  if (!require_utf8(text, shared, diagnostics)) return std::nullopt;
+  if (!check_toml_text(text, shared, diagnostics)) return std::nullopt;
   try {
     const toml::table table = toml::parse(text);
     Diagnostics found;

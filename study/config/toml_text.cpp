@@ -1,0 +1,136 @@
+#include "study/config/toml_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace linkstudy {
+namespace {
+
+// Length of the UTF-8 sequence that starts at `text[i]`, 0 when there is none (overlong forms,
+// surrogates and values above U+10FFFF included).
+std::size_t utf8_length(std::string_view text, std::size_t i) {
+  const auto byte = [&](std::size_t k) {
+    return i + k < text.size() ? static_cast<unsigned char>(text[i + k]) : 0u;
+  };
+  const unsigned first = byte(0);
+  if (first < 0x80) return 1;
+  const std::size_t length = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
+  if (first < 0xC2 || first > 0xF4) return 0;
+  for (std::size_t k = 1; k < length; ++k) {
+    if ((byte(k) & 0xC0u) != 0x80u) return 0;
+  }
+  const bool overlong = (first == 0xE0 && byte(1) < 0xA0) || (first == 0xF0 && byte(1) < 0x90);
+  const bool outside = (first == 0xED && byte(1) > 0x9F) || (first == 0xF4 && byte(1) > 0x8F);
+  return overlong || outside ? 0 : length;
+}
+
+// Follows a text byte by byte: what of it is string or comment, and how deep the rest is.
+class DepthScan {
+ public:
+  explicit DepthScan(std::string_view text) : text_(text) {}
+
+  // Takes the byte at `i`; false where a key or a value is too deep.
+  bool take(std::size_t i) {
+    if (i < resume_) return true;  // taken with the quotes before it
+    const char c = text_[i];
+    if (c == '\n' && !is_long_) quote_ = 0;
+    if (quote_ == '#') return true;
+    if (quote_ != 0) {
+      take_quoted(i);
+      return true;
+    }
+    switch (c) {
+      case '#':
+        quote_ = c;
+        return true;
+      case '"':
+      case '\'':
+        open(i);
+        return true;
+      case '.':
+        return ++names_ < kDeepestKey;
+      case '[':
+      case '{':
+        names_ = 0;
+        return ++brackets_ <= kDeepestValue;
+      case ']':
+      case '}':
+        brackets_ = std::max(0, brackets_ - 1);
+        names_ = 0;
+        return true;
+      case '\n':
+      case '=':
+      case ',':
+        names_ = 0;
+        return true;
+      default:
+        return true;
+    }
+  }
+
+ private:
+  std::size_t quotes_at(std::size_t i, std::size_t most) const {
+    std::size_t count = 0;
+    while (count < most && i + count < text_.size() && text_[i + count] == quote_) ++count;
+    return count;
+  }
+
+  void open(std::size_t i) {
+    quote_ = text_[i];
+    const std::size_t count = quotes_at(i, 3);
+    is_long_ = count == 3;
+    if (count == 2) quote_ = 0;  // an empty string
+    resume_ = i + count;
+  }
+
+  void take_quoted(std::size_t i) {
+    if (text_[i] == '\\' && quote_ == '"') {
+      resume_ = i + 2;
+    } else if (text_[i] == quote_ && (!is_long_ || quotes_at(i, 3) == 3)) {
+      // Two more quotes before the end of a long string belong to it.
+      resume_ = i + (is_long_ ? quotes_at(i, 5) : 1);
+      quote_ = 0;
+      is_long_ = false;
+    }
+  }
+
+  std::string_view text_;
+  std::size_t resume_ = 0;
+  char quote_ = 0;  // of the string we are in, # in a comment
+  bool is_long_ = false;
+  int names_ = 0;
+  int brackets_ = 0;
+};
+
+}  // namespace
+
+bool check_toml_text(std::string_view text, const std::shared_ptr<const std::string>& file,
+                     Diagnostics& diagnostics) {
+  DepthScan scan(text);
+  int line = 1, column = 1;
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t length = utf8_length(text, i);
+    if (length == 0) {
+      diagnostics.add({file, line, column},
+                      fmt::format("the file is not UTF-8 text, got byte 0x{:02X}",
+                                  static_cast<unsigned char>(text[i])),
+                      "save it as UTF-8; results and archives are not inputs");
+      return false;
+    }
+    if (!scan.take(i)) {
+      diagnostics.add({file, line, column},
+                      text[i] == '.'
+                          ? fmt::format("a key has more than {} names", kDeepestKey)
+                          : fmt::format("values are nested more than {} deep", kDeepestValue),
+                      "keys and values of inputs are a few levels deep; see configs/README.md");
+      return false;
+    }
+    column = text[i] == '\n' ? 1 : column + 1;
+    line += text[i] == '\n' ? 1 : 0;
+    i += length;
+  }
+  return true;
+}
+
+}  // namespace linkstudy
