@@ -87,10 +87,15 @@ Deviation from_ideal(const Samples& samples) {
 struct Error {
   double way, speed;  // largest, m, m/s
 };
+// Where either has a column more, it is left out.
 Error error_until(double t, double interval, const Samples& samples, const Samples& reference) {
   const Index n = std::lround(t / interval) + 1;
-  const Matrix error = (samples.values.topRows(n) - reference.values.topRows(n)).cwiseAbs();
-  return {error.col(kWay).maxCoeff(), error.col(kSpeed).maxCoeff()};
+  const auto largest_difference = [&](Column column) {
+    return (samples.values.col(column).head(n) - reference.values.col(column).head(n))
+        .cwiseAbs()
+        .maxCoeff();
+  };
+  return {largest_difference(kWay), largest_difference(kSpeed)};
 }
 
 constexpr double kEnd = 2.0;  // s

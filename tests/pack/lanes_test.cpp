@@ -1,7 +1,6 @@
 // Runs in lanes against runs alone: to the last bit, whatever the neighbours do.
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <limits>
 
 #include "tests/mechanisms/journal_in_bearing.h"
@@ -10,6 +9,7 @@
 #include "tests/mechanisms/random_linkages.h"
 #include "tests/mechanisms/rsrrp.h"
 #include "tests/support/engine_probe.h"
+#include "tests/support/same_bits.h"
 #include "tests/support/simd_levels.h"
 
 namespace linkstudy::testing {
@@ -62,10 +62,6 @@ void run_cases(std::vector<Case>& cases, const SimulationOptions& options, SimdL
   for (Case& c : cases) batch.push_back({&c.model.parameters, &c.model.start, &c.observers, {}});
   simulate_batch(cases.front().model.mechanism, options, batch, {}, {level, true});
   for (std::size_t i = 0; i < cases.size(); ++i) cases[i].outcome = batch[i].outcome;
-}
-
-bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
 }
 
 ::testing::AssertionResult same_run(const Case& a, const Case& b) {

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstring>
 
 #include "core/model/fixed_structure.h"
 #include "core/simulation/kernels.h"
@@ -11,11 +10,14 @@
 #include "core/simulation/simulate.h"
 #include "study/config/model_document.h"
 #include "study/specialize/fixed_kernels.h"
+#include "tests/support/same_bits.h"
 #include "tests/support/simd_levels.h"
 #include "tests/support/source_file.h"
 
 namespace linkstudy {
 namespace {
+
+using testing::same_bits;
 
 ModelInput read_config(const std::string& name, const std::vector<std::string>& set) {
   Diagnostics diagnostics;
@@ -61,10 +63,6 @@ Runs run(const Model& model, const SimulationOptions& options, int count,
   }
   simulate_batch(model.mechanism, options, runs.cases, {}, choice);
   return runs;
-}
-
-bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
 }
 
 // One step of a kernel on a model, without observers.
