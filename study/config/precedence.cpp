@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "study/config/value_path.h"
 
 namespace linkstudy {
@@ -29,6 +31,27 @@ void replace_in_set(std::vector<Override>& set, const Document& model, const Ove
     return relation != PathRelation::apart && relation != PathRelation::contains;
   });
   if (is_stated) set.push_back(override);
+}
+
+const Override* find_stated(const std::vector<Override>& set, const Document& model,
+                            const std::string& path) {
+  const auto found = std::ranges::find_if(set, [&](const Override& one) {
+    return relate(model, one.path, path) == PathRelation::same;
+  });
+  return found == set.end() ? nullptr : &*found;
+}
+
+// Where the cases were meant to differ from their reference.
+void warn_of_likeness(const StudyInput& input, const Override& override, Diagnostics& diagnostics) {
+  const Override* own = find_stated(input.base_set, input.model, override.path);
+  const Override* other = find_stated(input.reference->set, input.reference->model, override.path);
+  if (own == nullptr || other == nullptr || equal_content(own->value, other->value)) return;
+  diagnostics.remark(
+      Severity::warning, override.origin,
+      fmt::format("{} replaces {} of base.set and {} of reference.set: cases and reference agree "
+                  "in it",
+                  override.path, shown(own->value), shown(other->value)),
+      "to change one of them only, edit the file");
 }
 
 std::vector<Override> join(std::vector<Override> set, const std::vector<Override>& more) {
@@ -146,6 +169,7 @@ void apply_command_line(std::span<const Override> command_line, StudyInput& inpu
       is_known = write_into(input.reference->model, override, of_reference) || is_known;
     }
     if (!is_known) diagnostics.append(of_model);
+    if (has_reference) warn_of_likeness(input, override, diagnostics);
     replace_in_set(input.base_set, input.model, override);
     if (!has_reference) continue;
     if (!has_other) input.reference->model = input.model;

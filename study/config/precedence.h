@@ -17,7 +17,8 @@ std::vector<Override> case_overrides(const StudyInput& input, const LoadCaseInpu
 // What is set in the model of the reference.
 std::vector<Override> reference_overrides(const StudyInput& input, const LoadCaseInput& load_case);
 
-// Writes --set into the models and sets of the study. A path that no model has is reported.
+// Writes --set into the models and sets of the study. A path that no model has is reported; that a
+// value in which base.set and reference.set differed is now the same in both is remarked.
 void apply_command_line(std::span<const Override> command_line, StudyInput& input,
                         Diagnostics& diagnostics);
 

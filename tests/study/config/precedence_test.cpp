@@ -161,6 +161,22 @@ TEST(Precedence, The_resolved_study_states_what_was_run) {
   EXPECT_THAT(resolved, testing::Not(HasSubstr("yoke")));
 }
 
+TEST(Precedence, A_set_option_that_makes_cases_and_reference_alike_is_remarked) {
+  const Sources apart = {.base = "\"closure.S.model\" = \"sde\"",
+                         .reference = "\"closure.S.model\" = \"cut\"",
+                         .sets = {"closure.0.model=sde"}};
+  Diagnostics diagnostics;
+  const auto input = read(apart, diagnostics);
+  ASSERT_TRUE(input) << to_string(diagnostics);
+  ASSERT_EQ(input->remarks.size(), 1u);
+  EXPECT_THAT(input->remarks[0].message,
+              HasSubstr("replaces 'sde' of base.set and 'cut' of reference.set"));
+  const Sources alike = {.base = "\"link.crank.mass\" = 2",
+                         .reference = "\"link.crank.mass\" = 2",
+                         .sets = {"link.crank.mass=3"}};
+  EXPECT_TRUE(read(alike, diagnostics)->remarks.empty());
+}
+
 TEST(Precedence, A_set_option_needs_its_value_in_one_of_the_models_only) {
   const std::string other = test::replaced(kRsrrp, "name = \"S\"", "name = \"T\"");
   write_file("rsrrp.toml", kRsrrp);
