@@ -53,7 +53,6 @@ class LaneObservers {
     std::size_t seen = 0;
     std::vector<Real> max_error, square_error;  // (channels)
     Real max_vector_error = Real(0.0);
-    Real square_vector_error = Real(0.0);
   };
   // A type of its own, so that its vector is not shared with other instruction sets.
   struct Rows {
@@ -73,15 +72,15 @@ class LaneObservers {
     if (!form.sampling.hits(step)) return;
     const std::size_t n = s.max_error.size();
     const double* reference = form.reference + s.seen * n;
+    const Real weight(time_weight(form.sampling, {}, step));
     Real vector_square(0.0);
     for (std::size_t i = 0; i < n; ++i) {
       const Real error = now.sample(form.channels[i]) - Real(form.sign[i] * reference[i]);
       s.max_error[i] = max(s.max_error[i], abs(error));
-      s.square_error[i] = madd(error, error, s.square_error[i]);
+      s.square_error[i] = madd(weight * error, error, s.square_error[i]);
       vector_square = madd(error, error, vector_square);
     }
     s.max_vector_error = max(s.max_vector_error, sqrt(vector_square));
-    s.square_vector_error = s.square_vector_error + vector_square;
     ++s.seen;
   }
 
@@ -92,8 +91,9 @@ class LaneObservers {
     const Real x = now.sample(form.channel);
     s.min = min(s.min, x);
     s.max = max(s.max, x);
-    s.sum = s.sum + x;
-    s.square = madd(x, x, s.square);
+    const Real weighted = Real(time_weight(form.sampling, form.ends, step)) * x;
+    s.sum = s.sum + weighted;
+    s.square = madd(weighted, x, s.square);
     s.last = x;
     ++s.seen;
   }
@@ -119,7 +119,6 @@ class LaneObservers {
       out.square_error[k] = lane(s.square_error[k], i);
     }
     out.max_vector_error = lane(s.max_vector_error, i);
-    out.square_vector_error = lane(s.square_vector_error, i);
   }
 
   static void store(const LaneReduction& s, int i, ChannelReduction& out) {

@@ -1,5 +1,9 @@
 // What is kept of a run. Observers see the accepted states in step order; none allocates while
 // stepping. A sampling stride is a whole number of steps, so nothing is interpolated.
+// Sums stand for integrals over time, of second order in the stride d (trapezoidal rule):
+//   integral_a^b x dt = d sum_i w_i x_i,  w = 1 inside, 1/2 at the first and the last sample
+// and where a window [a, b] has more than its samples, the first counts for what lies before it and
+// the last for what lies after it (parts of d): w_0 = 1/2 + before, w_n = 1/2 + after.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +22,28 @@ struct Sampling {
     return step >= begin && step <= end && (step - begin) % stride == 0;
   }
   long count() const { return end < begin ? 0 : (end - begin) / stride + 1; }
+  long last() const { return begin + (count() - 1) * stride; }
 };
+
+// What a window has beyond its first and last sample, in strides: 0 <= before, after < 1.
+struct WindowEnds {
+  double before = 0.0;
+  double after = 0.0;
+};
+
+// w of a sampled step. A window without length is its one sample.
+inline double time_weight(const Sampling& sampling, const WindowEnds& ends, long step) {
+  const bool is_first = step == sampling.begin;
+  const bool is_last = step == sampling.last();
+  if (is_first && is_last && ends.before + ends.after == 0.0) return 1.0;
+  return (is_first ? ends.before : 0.5) + (is_last ? ends.after : 0.5);
+}
+
+// Sum of all w: the length of the window in strides, what a mean over time is divided by.
+inline double total_weight(const Sampling& sampling, const WindowEnds& ends) {
+  const double length = static_cast<double>(sampling.count() - 1) + ends.before + ends.after;
+  return length > 0.0 ? length : 1.0;
+}
 
 // Values of channels at the sampled steps.
 struct Series {
@@ -29,7 +54,7 @@ struct Series {
 };
 
 // Error of channels against a reference on the same instants, per component and for the vector.
-// Only sampled steps count; sums run in step order.
+// Only sampled steps count; sums run in step order and are weighted as above.
 struct Comparison {
   std::vector<Channel> channels;
   Sampling sampling;
@@ -37,20 +62,20 @@ struct Comparison {
   std::vector<double> sign;           // (channels) factor of the reference, +1 or -1
   long seen = 0;
   std::vector<double> max_error;     // (channels)
-  std::vector<double> square_error;  // (channels) sum
+  std::vector<double> square_error;  // (channels) weighted sum
   double max_vector_error = 0.0;
-  double square_vector_error = 0.0;
 };
 
 // Extremes and moments of one channel over a window.
 struct ChannelReduction {
   Channel channel;
   Sampling sampling;
+  WindowEnds ends;
   long seen = 0;
   double min = std::numeric_limits<double>::infinity();
   double max = -std::numeric_limits<double>::infinity();
-  double sum = 0.0;
-  double square = 0.0;
+  double sum = 0.0;     // weighted
+  double square = 0.0;  // weighted
   double last = 0.0;
 };
 

@@ -18,6 +18,7 @@ namespace {
 
 constexpr double kLinearTurn = 45.0;         // deg
 constexpr double kVelocityTolerance = 1e-6;  // of the largest velocity
+constexpr double kChanged = 1e-3;  // part of a given velocity that closures may correct unsaid
 constexpr double kPressed = 0.05;  // of the clearance: a journal that rests on its bearing
 
 std::string number(double x) {
@@ -93,6 +94,24 @@ void warn_of_flipped(const AssemblyReport& a, Preparation& p) {
   }
 }
 
+// A velocity that is written, and that the closures do not leave: it is a proposal unless held.
+void warn_of_velocities(const Linkage& linkage, Preparation& p) {
+  const Mechanism& m = p.model.mechanism;
+  for (const Joint& joint : linkage.joints) {
+    const auto at = std::ranges::find(m.joint_names, joint.name);
+    if (joint.hold || at == m.joint_names.end()) continue;
+    const int first = m.bodies[static_cast<std::size_t>(at - m.joint_names.begin())].v_begin;
+    for (std::size_t i = 0; i < joint.velocity.size(); ++i) {
+      const double given = joint.velocity[i];
+      const double taken = p.model.start.v[static_cast<std::size_t>(first) + i];
+      if (std::abs(taken - given) <= kChanged * std::abs(given) || given == 0.0) continue;
+      p.warnings.push_back("joint '" + joint.name + "': initial.velocity " + number(given) +
+                           " does not fit the closures: the run starts with " + number(taken) +
+                           " (hold = true makes this an error)");
+    }
+  }
+}
+
 // Closed but for the clearances, the journals within their bearings: then that is what is meant.
 // Otherwise a run begins with journals in the middle.
 bool keep_loose_journals(const Linkage& linkage, const State<double>& given, Preparation& p) {
@@ -133,6 +152,7 @@ bool assemble(const Linkage& linkage, const std::vector<unsigned>& idle, const M
     p.warnings.push_back("the given start did not lead to a closed pose; used restart " +
                          std::to_string(a.restarts) + ", " + number(a.displacement) + " away");
   }
+  warn_of_velocities(linkage, p);
   warn_of_flipped(a, p);
   warn_of_redundancy(linkage, idle, p);
   return true;

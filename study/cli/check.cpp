@@ -13,44 +13,50 @@ namespace linkstudy {
 namespace {
 
 // What check_file does not judge because it needs the compiled model: names of signals, windows.
-std::vector<Diagnostic> check_signals_of(const std::string& path) {
-  Diagnostics diagnostics;
-  const std::optional<Tree> tree = read_toml_file(path, diagnostics);
-  const std::optional<std::string> kind = tree ? kind_of(*tree, diagnostics) : std::nullopt;
-  if (!kind || *kind == "model") return {};
-  const std::optional<StudyInput> input = read_study(path, {}, diagnostics);
+void check_signals_of(const std::string& path, Diagnostics& diagnostics) {
+  Diagnostics said_before;
+  const std::optional<Tree> tree = read_toml_file(path, said_before);
+  const std::optional<std::string> kind = tree ? kind_of(*tree, said_before) : std::nullopt;
+  if (!kind || *kind == "model") return;
+  const std::optional<StudyInput> input = read_study(path, {}, said_before);
   if (input) make_evaluator(*input, diagnostics);
-  return diagnostics.sorted();
 }
 
-std::string to_json(const std::vector<Diagnostic>& diagnostics) {
-  nlohmann::ordered_json errors = nlohmann::ordered_json::array();
+using Json = nlohmann::ordered_json;
+
+Json to_json(const std::vector<Diagnostic>& diagnostics) {
+  Json list = Json::array();
   for (const Diagnostic& d : diagnostics) {
-    errors.push_back({{"file", d.file},
-                      {"line", d.line},
-                      {"column", d.column},
-                      {"message", d.message},
-                      {"remedy", d.remedy}});
+    list.push_back({{"file", d.file},
+                    {"line", d.line},
+                    {"column", d.column},
+                    {"message", d.message},
+                    {"remedy", d.remedy}});
   }
-  using Json = nlohmann::ordered_json;
-  return Json{{"errors", errors}}.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return list;
 }
 
 }  // namespace
 
 int run_check(const CommandLine& line) {
-  std::vector<Diagnostic> all;
+  std::vector<Diagnostic> errors;
+  std::vector<Diagnostic> remarks;
   for (const std::string& file : line.inputs) {
-    std::vector<Diagnostic> found = check_file(file);
-    if (found.empty()) found = check_signals_of(file);
-    all.insert(all.end(), found.begin(), found.end());
+    Diagnostics found;
+    check_file(file, found);
+    if (found.empty()) check_signals_of(file, found);
     if (!line.json && found.empty()) print_out(fmt::format("{}: ok\n", file));
+    for (const Diagnostic& d : found.sorted()) errors.push_back(d);
+    for (const Diagnostic& d : found.sorted_remarks()) remarks.push_back(d);
   }
-  if (line.json) print_out(to_json(all));
-  for (const Diagnostic& diagnostic : all) {
-    if (!line.json) fmt::print(stderr, "{}", to_string(diagnostic) + "\n");
+  if (line.json) {
+    const Json json{{"errors", to_json(errors)}, {"remarks", to_json(remarks)}};
+    print_out(json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
+  } else {
+    print_remarks(remarks);
+    print_remarks(errors);
   }
-  return all.empty() ? kDone : kInputError;
+  return errors.empty() ? kDone : kInputError;
 }
 
 }  // namespace linkstudy

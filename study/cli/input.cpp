@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "study/cli/tuning_setup.h"
+#include "study/config/precedence.h"
 #include "study/config/unit.h"
 #include "study/design/design.h"
 
@@ -58,45 +60,6 @@ std::vector<Value> first_point(const StudyInput& input) {
   return make_point(design_of(input), axes_of(input), 0).values;
 }
 
-void check_tune(const StudyInput& input, Diagnostics& diagnostics) {
-  for (std::size_t i = 1; i < input.tune.size(); ++i) {
-    diagnostics.add(input.tune[i].at, "this version tunes one value",
-                    "keep one [[tune]] and vary the other in a study");
-  }
-  const TuneInput& tune = input.tune.front();
-  if (!tune.is_logarithmic) {
-    diagnostics.add(tune.at, "this version searches in decades only",
-                    "write range = { log = [lowest, highest] }");
-  }
-  if (tune.parameter.path == kStepPath) {
-    diagnostics.add(tune.at, "simulation.step cannot be tuned: the certificate halves it",
-                    "vary it in a study");
-  }
-  for (const LoadCaseInput& load_case : input.load_case) {
-    const bool sets_step = std::ranges::any_of(
-        load_case.set, [](const Override& set) { return set.path == kStepPath; });
-    if (!sets_step) continue;
-    diagnostics.add(load_case.at,
-                    fmt::format("load case '{}' sets simulation.step, which a tune halves for its "
-                                "certificate",
-                                load_case.name),
-                    "set it in the model or in base.set");
-  }
-}
-
-// Names of responses must not be those of what is always kept.
-void check_names(const StudyInput& input, const Evaluator& evaluator, Diagnostics& diagnostics) {
-  for (const ResponseInput& response : input.response) {
-    const bool clashes = std::ranges::any_of(evaluator.responses(), [&](const Response& known) {
-      return known.name == response.name + "_2";
-    });
-    if (!clashes) continue;
-    diagnostics.add(response.at,
-                    fmt::format("response '{}' has the name of another", response.name),
-                    "choose another name");
-  }
-}
-
 }  // namespace
 
 InputError::InputError(Diagnostics diagnostics)
@@ -106,13 +69,18 @@ void throw_if_any(const Diagnostics& diagnostics) {
   if (!diagnostics.empty()) throw InputError(diagnostics);
 }
 
+void print_remarks(const std::vector<Diagnostic>& remarks) {
+  for (const Diagnostic& remark : remarks) fmt::print(stderr, "{}\n", to_string(remark));
+}
+
 ModelInput read_model_input(const CommandLine& line) {
   Diagnostics diagnostics;
   const std::vector<Override> set = parse_sets(line.set, diagnostics);
   const auto document = ModelDocument::load(line.inputs.front(), diagnostics);
   throw_if_any(diagnostics);
-  std::optional<ModelInput> model = document->with(set, diagnostics);
+  std::optional<ModelInput> model = read_model_file(*document, set, line.verb, diagnostics);
   throw_if_any(diagnostics);
+  print_remarks(diagnostics.sorted_remarks());
   return std::move(*model);
 }
 
@@ -150,10 +118,10 @@ std::vector<Point> points_of(const StudyInput& input) {
 }
 
 double base_step_of(const StudyInput& input) {
-  std::vector<Override> set = input.base_set;
-  set.push_back(make_override(input.tune.front().parameter.path, input.tune.front().low));
+  const Override low = make_override(input.tune.front().parameter.path, input.tune.front().low);
   Diagnostics diagnostics;
-  const std::optional<ModelInput> model = input.model->with(set, diagnostics);
+  const std::optional<ModelInput> model =
+      input.model->with(case_overrides(input, {}, {low}), diagnostics);
   throw_if_any(diagnostics);
   return model->options.step;
 }
@@ -163,7 +131,7 @@ std::unique_ptr<Evaluator> make_evaluator(const StudyInput& input, Diagnostics& 
   if (!diagnostics.empty()) return nullptr;
   std::unique_ptr<Evaluator> evaluator =
       Evaluator::make(input, parameters_of(input), first_point(input), diagnostics);
-  if (evaluator) check_names(input, *evaluator, diagnostics);
+  if (evaluator && input.kind == StudyKind::tune) check_tuning(*evaluator, diagnostics);
   if (evaluator) evaluator->set_timeout(input.run.timeout.value_or(0.0));
   return evaluator;
 }

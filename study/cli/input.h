@@ -23,7 +23,10 @@ class InputError : public std::runtime_error {
 
 void throw_if_any(const Diagnostics& diagnostics);
 
-// A model with the --set values in it.
+// To standard error.
+void print_remarks(const std::vector<Diagnostic>& remarks);
+
+// A model with the --set values in it; remarks are printed.
 ModelInput read_model_input(const CommandLine& line);
 
 // A study or tune file with --set, --seed, --batch in it; --timeout, --max-failures and

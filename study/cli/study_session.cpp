@@ -202,6 +202,9 @@ class Launch {
     const std::string counts = counts_text(*record_, total_);
     fmt::print(stderr, "{}: {}\n", record_->directory().string(), counts);
     log_->info("{}", counts);
+    const std::vector<Diagnostic>& remarks = evaluator_->input().remarks;
+    print_remarks(remarks);
+    for (const Diagnostic& remark : remarks) log_->warn("{}", one_line(to_string(remark)));
   }
 
   // A finished study that is started again needs none. Rank 0 knows.

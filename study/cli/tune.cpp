@@ -9,6 +9,7 @@
 #include "study/cli/output.h"
 #include "study/cli/study_end.h"
 #include "study/cli/tuning_group.h"
+#include "study/cli/tuning_setup.h"
 #include "study/cli/verbs.h"
 #include "study/tune/write_tuning.h"
 
@@ -58,38 +59,6 @@ class TuningRun {
   std::uint64_t next_id_ = 0;
 };
 
-tuning::TuningProblem make_problem(const Evaluator& evaluator) {
-  tuning::TuningProblem problem;
-  for (const TuneInput& tune : evaluator.input().tune) {
-    problem.variables.push_back({tune.parameter.path, tune.parameter.unit, tune.low, tune.high});
-  }
-  for (const JudgedError& error : evaluator.judged_errors()) {
-    problem.components.push_back({error.name, error.tolerance});
-  }
-  return problem;
-}
-
-tuning::TuningOptions make_options(const StudyInput& input) {
-  tuning::TuningOptions options;
-  options.scan = static_cast<std::size_t>(input.search.scan);
-  options.batch = static_cast<std::size_t>(input.search.batch);
-  options.max_evaluations = static_cast<std::size_t>(input.search.max_evaluations);
-  options.resolution = input.search.resolution;
-  options.delta = input.search.delta;
-  options.seed = input.run.seed;
-  return options;
-}
-
-void require_valid(const StudyInput& input, const tuning::TuningProblem& problem,
-                   const tuning::TuningOptions& options) {
-  Diagnostics diagnostics;
-  for (const Problem& found : tuning::check(problem, options)) {
-    diagnostics.add(make_location(input.file), fmt::format("{}: {}", found.path, found.message),
-                    found.remedy);
-  }
-  throw_if_any(diagnostics);
-}
-
 int print_result(const StudySession& session, const tuning::TuningResult& result,
                  const std::string& digest) {
   if (session.line().json) {
@@ -113,9 +82,8 @@ int print_unfinished(StudySession& session, const StudyEnd& end) {
 
 int run(StudySession& session) {
   const StudyInput& input = session.evaluator().input();
-  const tuning::TuningProblem problem = make_problem(session.evaluator());
-  const tuning::TuningOptions options = make_options(input);
-  require_valid(input, problem, options);
+  const tuning::TuningProblem problem = make_tuning_problem(session.evaluator());
+  const tuning::TuningOptions options = make_tuning_options(input);
   std::optional<tuning::TuningResult> result;
   const StudyEnd end = end_study(session, [&] {
     TuningRun tuning_run(session);

@@ -7,4 +7,7 @@ namespace linkstudy {
 
 std::vector<Diagnostic> check_file(const std::string& path);
 
+// The same, with what is remarked beside it.
+void check_file(const std::string& path, Diagnostics& diagnostics);
+
 }  // namespace linkstudy

@@ -13,7 +13,8 @@ void add_cut_rows(Rows& rows) {
       {.path = cut,
        .type = table,
        .meaning = "how exact constraints are held: of model cut, and those that clearance leaves",
-       .standard = "{}"});
+       .standard = "{}",
+       .effects = {stands_by("closure.*.model", {"cut", "clearance"})}});
   rows.push_back({.path = cut + ".stabilization",
                   .type = word,
                   .meaning = "how drift of the constraints is held down",
@@ -24,13 +25,15 @@ void add_cut_rows(Rows& rows) {
                   .meaning = "Baumgarte: -2 alpha Phi_dot",
                   .unit = "1/s",
                   .range = kNotNegative,
-                  .standard = "100.0"});
+                  .standard = "100.0",
+                  .effects = {acts_where(cut + ".stabilization", {"baumgarte"})}});
   rows.push_back({.path = cut + ".beta",
                   .type = number,
                   .meaning = "Baumgarte: -beta^2 Phi",
                   .unit = "1/s",
                   .range = kNotNegative,
-                  .standard = "50.0"});
+                  .standard = "50.0",
+                  .effects = {acts_where(cut + ".stabilization", {"baumgarte"})}});
 }
 
 // stiffness or damping: one number, or one for each direction.
@@ -61,7 +64,10 @@ void add_component_rows(Rows& rows, const std::string& path, const std::string& 
 
 void add_sde_rows(Rows& rows) {
   const std::string sde = "closure.*.sde";
-  rows.push_back({.path = sde, .type = table, .meaning = "settings of model sde"});
+  rows.push_back({.path = sde,
+                  .type = table,
+                  .meaning = "settings of model sde",
+                  .effects = {stands_by("closure.*.model", {"sde"})}});
   rows.push_back({.path = sde + ".form",
                   .type = word,
                   .meaning = "one element a direction; one along the line of centres; three along "

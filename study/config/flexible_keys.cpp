@@ -59,6 +59,7 @@ void add_flexible_rows(Rows& rows) {
                   .type = table,
                   .meaning = "the link as a uniform beam of rigid finite elements; mass, centre "
                              "and inertia stay those of the link"});
+  rows.back().effects.push_back(when_enabled(f));
   rows.push_back({.path = f + ".enabled",
                   .type = boolean,
                   .meaning = "false: rigid, whatever the table says",

@@ -7,12 +7,17 @@ namespace {
 using enum KeyType;
 using Rows = std::vector<KeyRow>;
 
+Effect of_clearance() {
+  return acts_where("closure.*.model", {"clearance"}, "closure.*.clearance");
+}
+
 void add_clearance_table(Rows& rows) {
   const std::string c = "closure.*.clearance";
   rows.push_back({.path = c,
                   .type = table,
                   .meaning = "settings of model clearance, for revolute closures; constraints that "
-                             "remain are held as `cut` says"});
+                             "remain are held as `cut` says",
+                  .effects = {stands_by("closure.*.model", {"clearance"})}});
   rows.push_back({.path = c + ".kind",
                   .type = word,
                   .meaning = "planar: axes stay parallel, one contact; spatial: the journal's axis "
@@ -41,14 +46,16 @@ void add_clearance_table(Rows& rows) {
                   .type = number,
                   .meaning = "length of the bearing; kind spatial needs it",
                   .unit = "m",
-                  .range = kPositive});
+                  .range = kPositive,
+                  .effects = {stands_by(c + ".kind", {"spatial"})}});
 }
 
 void add_material_rows(Rows& rows, const std::string& path, const std::string& body) {
   rows.push_back({.path = path,
                   .type = table,
                   .meaning = "material of the " + body + ", where `stiffness` is not given",
-                  .standard = "{}"});
+                  .standard = "{}",
+                  .effects = {acts_where("closure.*.contact.stiffness", {})}});
   rows.push_back({.path = path + ".young",
                   .type = number,
                   .meaning = "modulus of elasticity of the " + body,
@@ -67,7 +74,8 @@ void add_normal_rows(Rows& rows) {
   rows.push_back({.path = c,
                   .type = table,
                   .meaning = "normal force of model clearance, K depth^exponent (1 + D rate / "
-                             "approach speed); default: steel on steel"});
+                             "approach speed); default: steel on steel",
+                  .effects = {of_clearance()}});
   rows.push_back({.path = c + ".law",
                   .type = word,
                   .meaning = "D of the restitution e: 3 (1 - e^2) / 4, 8 (1 - e) / (5 e) or "
@@ -140,7 +148,8 @@ void add_clearance_rows(Rows& rows) {
   rows.push_back({.path = friction,
                   .type = table,
                   .meaning = "LuGre friction of model clearance, mu = sigma0 z + sigma1 z' + "
-                             "sigma2 v; default: none"});
+                             "sigma2 v; default: none",
+                  .effects = {of_clearance(), when_enabled(friction)}});
   add_friction_rows(rows, friction);
 }
 

@@ -50,6 +50,20 @@ struct Condition {
   std::vector<std::string> words;
 };
 
+// Where a row, and all rows under it, has an effect: the switch `key` ("closure.*.model"; * is the
+// row's own element, or any where the row has none) holds one of `words`, or is not given where
+// there are no words. Key "verb": what the program is asked to do. A switch is not subject to the
+// effects that it decides itself.
+struct Effect {
+  std::string key;
+  std::vector<std::string> words = {};
+  // Table without which no word can be chosen: where it is absent too, nothing can ever give the
+  // row an effect.
+  std::string needs = {};
+  // Written beside others for the switch to choose from: its rest is no surprise.
+  bool stands_by = false;
+};
+
 struct KeyRow {
   std::string path;  // "link.*.mass"; * stands for the name (or position) of an element
   KeyType type = KeyType::number;
@@ -64,6 +78,7 @@ struct KeyRow {
   std::string group =
       {};  // of the rows of a group, one at most is given (exactly one, if required)
   Condition only = {};
+  std::vector<Effect> effects = {};  // all must hold; none: it always has one
 };
 
 // Rows as a tree that follows the tree of the input.

@@ -73,6 +73,17 @@ std::string condition_text(const KeyRow& row) {
   return fmt::format(" ({} = {})", row.only.key, fmt::join(row.only.words, ", "));
 }
 
+// "\n    acts where closure.*.model = cut, clearance"
+std::string effect_text(const KeyRow& row) {
+  std::string text;
+  for (const Effect& effect : row.effects) {
+    text += fmt::format("{} {}{}", text.empty() ? "\n    acts where" : " and", effect.key,
+                        effect.words.empty() ? std::string(" is not given")
+                                             : fmt::format(" = {}", fmt::join(effect.words, ", ")));
+  }
+  return text;
+}
+
 std::string need_text(const KeyRow& row) {
   if (!row.standard.empty()) return row.standard;
   if (!row.required) return {};
@@ -112,7 +123,7 @@ std::string row_text(const KeyRow& row) {
   if (!row.range.is_everything()) text += "; range: " + range_symbol(row.range);
   if (row.required) text += "; " + need_text(row);
   if (!row.standard.empty()) text += "; default: " + row.standard;
-  return text + "\n";
+  return text + effect_text(row) + "\n";
 }
 
 std::string section_text(const Section& section, const std::vector<std::string>& prefix) {

@@ -55,6 +55,7 @@ void add_kinematics_rows(Rows& rows) {
   rows.push_back({.path = "kinematics",
                   .type = table,
                   .meaning = "course of `linkstudy kinematics`; of no effect on runs"});
+  rows.back().effects.push_back(acts_where("verb", {"kinematics"}));
   rows.push_back({.path = "kinematics.positions",
                   .type = integer,
                   .meaning = "positions evenly spaced in time, both ends included",

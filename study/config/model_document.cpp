@@ -24,6 +24,12 @@ std::optional<Tree> require_model(std::optional<Tree> tree, Diagnostics& diagnos
   return std::nullopt;
 }
 
+void report_lost(const std::vector<Ineffective>& ineffective, Diagnostics& diagnostics) {
+  for (const Ineffective& one : ineffective) {
+    if (one.is_lost) diagnostics.add(one.at, one.message(), one.remedy);
+  }
+}
+
 bool is_single_value(KeyType type) {
   return type == KeyType::number || type == KeyType::number_or_table || type == KeyType::integer ||
          type == KeyType::boolean || type == KeyType::word || type == KeyType::numbers ||
@@ -76,8 +82,11 @@ std::optional<ModelInput> ModelDocument::with(std::span<const Override> override
   Diagnostics found;
   Tree tree = tree_;
   for (const Override& override : overrides) set_value(tree, model_schema(), override, found);
+  std::vector<Ineffective> ineffective = find_ineffective(tree, model_schema(), {});
   validate(tree, model_schema(), found);
   ModelInput input = read_model(std::move(tree), found);
+  if (found.empty()) report_lost(ineffective, found);
+  input.ineffective = std::move(ineffective);
   diagnostics.append(found);
   if (!found.empty()) return std::nullopt;
   input.rigid = input.linkage;
@@ -95,6 +104,29 @@ std::optional<ModelDocument> ModelDocument::edited(std::span<const Override> ove
   }
   if (!is_done) return std::nullopt;
   return result;
+}
+
+std::optional<ModelInput> read_model_file(const ModelDocument& document,
+                                          std::span<const Override> set, const std::string& verb,
+                                          Diagnostics& diagnostics) {
+  std::optional<ModelInput> input = document.with(set, diagnostics);
+  // Kinematics takes all closures as exact and knows neither forces nor steps.
+  if (!input || verb == "kinematics") return input;
+  Diagnostics said;
+  const std::optional<ModelDocument> edited = document.edited(set, said);
+  if (!edited) return input;
+  const Tree& tree = edited->tree();
+  for (const Override& one : set) {
+    const auto found = find_ineffective(tree, model_schema(), one.path, verb);
+    if (found) {
+      diagnostics.remark(Severity::warning, one.origin, found->message(), found->remedy);
+    }
+  }
+  for (const Ineffective& one : find_ineffective(tree, model_schema(), verb)) {
+    if (one.stands_by || one.at.line == 0) continue;
+    diagnostics.remark(Severity::warning, one.at, one.message(), one.remedy);
+  }
+  return input;
 }
 
 std::optional<Parameter> parameter_for(const ModelDocument& document, const std::string& path) {

@@ -35,6 +35,12 @@ class ModelDocument {
   std::string file_;
 };
 
+// The model of a verb other than study and tune: with(set), and warnings about values of the file
+// or of --set that have no effect on it.
+std::optional<ModelInput> read_model_file(const ModelDocument& document,
+                                          std::span<const Override> set, const std::string& verb,
+                                          Diagnostics& diagnostics);
+
 // Unit and meaning of a path of the model; nothing when the path names no single value.
 std::optional<Parameter> parameter_for(const ModelDocument& document, const std::string& path);
 

@@ -7,6 +7,10 @@ namespace {
 using enum KeyType;
 using Rows = std::vector<KeyRow>;
 
+Effect of_own_steps() {
+  return acts_where("simulation.integrator", {"adaptive", "stiff"});
+}
+
 void add_gravity_row(Rows& rows) {
   rows.push_back({.path = "gravity",
                   .type = numbers,
@@ -85,7 +89,8 @@ void add_joint_friction_rows(Rows& rows) {
                   .type = table,
                   .meaning = "LuGre friction, mu = sigma0 z + sigma1 z' + sigma2 v, under the "
                              "load that the joint's own reaction makes; default: none",
-                  .only = {"type", {"revolute", "prismatic", "cylindrical"}}});
+                  .only = {"type", {"revolute", "prismatic", "cylindrical"}},
+                  .effects = {when_enabled(friction)}});
   add_friction_rows(rows, friction);
   add("radius",
       "radius of the sliding surface, not 0 where it turns; prismatic: arm of the moment about the "
@@ -306,14 +311,16 @@ void add_tolerance_rows(Rows& rows) {
   rows.push_back({.path = tolerance,
                   .type = table,
                   .meaning = "error allowed in a step of adaptive and stiff",
-                  .standard = "{}"});
+                  .standard = "{}",
+                  .effects = {of_own_steps()}});
   add("relative", "part of the size of each unknown", "1.0e-8");
   add("absolute", "in the unit of each unknown", "1.0e-10");
   rows.push_back({.path = "simulation.step_limit",
                   .type = integer,
                   .meaning = "adaptive, stiff: more steps end the run",
                   .range = {.low = 1},
-                  .standard = "100000000"});
+                  .standard = "100000000",
+                  .effects = {of_own_steps()}});
 }
 
 void add_simulation_rows(Rows& rows) {
@@ -355,7 +362,8 @@ void add_simulation_rows(Rows& rows) {
                   .type = number,
                   .meaning = "a larger gap (m or rad) of a cut closure ends the run",
                   .range = kPositive,
-                  .standard = "1.0e-3"});
+                  .standard = "1.0e-3",
+                  .effects = {acts_where("closure.*.model", {"cut", "clearance"})}});
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include "core/kinematics/drive_course.h"
 #include "core/simulation/options.h"
 #include "core/topology/linkage.h"
-#include "study/config/tree.h"
+#include "study/config/effect.h"
 
 namespace linkstudy {
 
@@ -18,6 +18,7 @@ struct ModelInput {
   KinematicsOptions kinematics;
   std::string name;
   Tree resolved;  // every default and override filled in: the text of resolved.toml
+  std::vector<Ineffective> ineffective;  // what was written and has none, whatever the verb
 };
 
 // `model` comes from validate(); start positions are filled in. With reports, the result has

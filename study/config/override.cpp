@@ -9,6 +9,7 @@
 #include "study/config/joint_units.h"
 #include "study/config/toml_reader.h"
 #include "study/config/unit.h"
+#include "study/config/value_path.h"
 
 namespace linkstudy {
 namespace {
@@ -23,12 +24,8 @@ std::optional<std::size_t> parse_index(const std::string& text) {
 }
 
 Tree* find_element(Tree& list, const std::string& name) {
-  for (Tree& item : list.items) {
-    const Tree* own = item.find("name");
-    if (own != nullptr && own->is(Kind::text) && own->text == name) return &item;
-  }
-  const std::optional<std::size_t> index = parse_index(name);
-  return index && *index < list.items.size() ? &list.items[*index] : nullptr;
+  const std::optional<std::size_t> index = find_element_index(list, name);
+  return index ? &list.items[*index] : nullptr;
 }
 
 bool is_list(KeyType type) {

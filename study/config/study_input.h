@@ -17,6 +17,7 @@ enum class FailurePolicy { record, abort };
 struct TimeWindow {
   double first = 0.0;  // s
   double last = 0.0;   // s
+  Location at = {};
 };
 
 struct ReferenceInput {
@@ -49,7 +50,8 @@ struct ResponseInput {
   std::string signal;
   Reduction reduce = Reduction::max;
   std::optional<TimeWindow> window;
-  Location at;  // of signal
+  Location at;       // of signal
+  Location name_at;  // of name
 };
 
 struct TraceInput {
@@ -109,10 +111,11 @@ struct StudyInput {
   SearchOptions search;
   RunOptions run;
   Tree resolved;
+  std::vector<Diagnostic> remarks;  // warnings and notes
 };
 
 // `set` are --set overrides: those of the study's own keys (run.seed, search.scan, ...) go there,
-// all others are written into the model files, before what the study itself sets.
+// all others to what they name (precedence.h).
 std::optional<StudyInput> read_study(const std::string& path, std::span<const Override> set,
                                      Diagnostics& diagnostics);
 

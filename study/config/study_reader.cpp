@@ -4,21 +4,21 @@
 #include <filesystem>
 
 #include "study/config/joint_units.h"
+#include "study/config/precedence.h"
 #include "study/config/read_value.h"
+#include "study/config/study_cases.h"
 #include "study/config/study_input.h"
 #include "study/config/study_records.h"
 #include "study/config/toml_reader.h"
 #include "study/config/validate.h"
 #include "study/config/value_list.h"
+#include "study/config/value_path.h"
 
 namespace linkstudy {
 namespace {
 
 using Kind = Tree::Kind;
 using Document = std::shared_ptr<const ModelDocument>;
-
-// Cases of one parameter that are built and checked as whole models before anything runs.
-constexpr std::size_t kMostTrials = 64;
 
 class StudyReader {
  public:
@@ -36,8 +36,11 @@ class StudyReader {
     if (const Tree* base = study_.find("base")) input_.base_set = read_set(*base);
     read_reference();
     read_load_cases();
+    write_command_line();
     if (kind == StudyKind::tune) require_match();
     if (input_.model) read_parameters();
+    require_one_source(model_set_, input_, diagnostics_);
+    if (has_rows_) check_cases(input_, written_, model_set_, diagnostics_);
     input_.resolved = study_;
     return std::move(input_);
   }
@@ -63,7 +66,6 @@ class StudyReader {
         diagnostics_.add(name->at, fmt::format("model '{}': {}", path, d.message), d.remedy);
       }
     }
-    if (document) document = document->edited(model_set_, diagnostics_);
     return document ? std::make_shared<const ModelDocument>(std::move(*document)) : nullptr;
   }
 
@@ -74,7 +76,6 @@ class StudyReader {
     reference.at = tree->at;
     reference.model = tree->find("model") != nullptr ? load_model(*tree) : input_.model;
     reference.set = read_set(*tree);
-    if (reference.model) reference.model->with(reference.set, diagnostics_);
     input_.reference = std::move(reference);
   }
 
@@ -86,6 +87,24 @@ class StudyReader {
         input_.load_case.push_back({word_of(tree, "name"), read_set(tree), tree.at});
       }
     }
+  }
+
+  void write_command_line() {
+    if (model_set_.empty()) return;
+    apply_command_line(model_set_, input_, diagnostics_);
+    write_set("base", input_.base_set);
+    if (input_.reference) write_set("reference", input_.reference->set);
+  }
+
+  // What --set replaced in a set of the file, so that resolved.toml says what was run.
+  void write_set(const char* owner, const std::vector<Override>& set) {
+    Tree* tree = study_.find(owner);
+    Tree* table = tree != nullptr && tree->is(Kind::table) ? tree->find("set") : nullptr;
+    const auto is_option = [](const Override& one) { return one.origin.line == 0; };
+    if (table == nullptr || std::ranges::none_of(set, is_option)) return;
+    Tree written = Tree::make_table(table->at);
+    for (const Override& one : set) written.set(one.path, one.value);
+    *table = std::move(written);
   }
 
   void require_match() {
@@ -110,9 +129,9 @@ class StudyReader {
     Tree* entries = study_.find(list);
     if (entries != nullptr && entries->is(Kind::array)) {
       for (Tree& entry : entries->items) read_entry(document, entry);
-      require_equal_lengths();
+      has_rows_ = have_equal_lengths();
+      if (has_rows_) merge_equal_values(input_, written_, diagnostics_);
     }
-    try_cases();
   }
 
   void read_entry(const ModelDocument& document, Tree& entry) {
@@ -141,7 +160,7 @@ class StudyReader {
     VaryInput vary{*parameter, {}, path->at};
     for (const Tree& value : values) vary.values.push_back(to_value(value));
     input_.vary.push_back(std::move(vary));
-    trials_.push_back(std::move(values));
+    written_.push_back(std::move(values));
   }
 
   static Value to_value(const Tree& value) {
@@ -178,14 +197,16 @@ class StudyReader {
       return;
     }
     input_.tune.push_back({parameter, log != nullptr, low, high, entry.find("parameter")->at});
-    trials_.push_back(limits->items);
+    written_.push_back(limits->items);
   }
 
-  void require_equal_lengths() {
-    if (input_.design != DesignType::list) return;
+  bool have_equal_lengths() {
+    if (input_.design != DesignType::list) return true;
+    bool are_equal = true;
     for (const VaryInput& vary : input_.vary) {
       const std::size_t first = input_.vary.front().values.size();
       if (vary.values.size() == first) continue;
+      are_equal = false;
       diagnostics_.add(vary.at,
                        fmt::format("design list needs as many values of each parameter, got {} of "
                                    "'{}' and {} of '{}'",
@@ -193,36 +214,7 @@ class StudyReader {
                                    input_.vary.front().parameter.path),
                        "give every [[vary]] the same number of values, or use type = \"grid\"");
     }
-  }
-
-  std::string trial_path(std::size_t i) const {
-    return input_.kind == StudyKind::study ? input_.vary[i].parameter.path
-                                           : input_.tune[i].parameter.path;
-  }
-
-  // Builds whole models: every parameter at its first value, then one after the other at its
-  // others, then the load cases. The first failing case of a parameter speaks for it.
-  void try_cases() {
-    std::vector<Override> first = input_.base_set;
-    const std::size_t fixed = first.size();
-    for (std::size_t i = 0; i < trials_.size(); ++i) {
-      first.push_back({trial_path(i), trials_[i].front(), trials_[i].front().at});
-    }
-    if (!input_.model->with(first, diagnostics_)) return;
-    for (std::size_t i = 0; i < trials_.size(); ++i) {
-      const std::size_t stride = 1 + (trials_[i].size() - 1) / kMostTrials;
-      std::vector<Override> other = first;
-      for (std::size_t k = trials_[i].size(); k > 1; k -= std::min(k - 1, stride)) {
-        other[fixed + i].value = trials_[i][k - 1];
-        if (!input_.model->with(other, diagnostics_)) break;
-      }
-    }
-    for (const LoadCaseInput& load_case : input_.load_case) {
-      std::vector<Override> other = input_.base_set;
-      other.insert(other.end(), load_case.set.begin(), load_case.set.end());
-      other.insert(other.end(), first.begin() + static_cast<std::ptrdiff_t>(fixed), first.end());
-      input_.model->with(other, diagnostics_);
-    }
+    return are_equal;
   }
 
   Tree study_;
@@ -230,7 +222,8 @@ class StudyReader {
   Diagnostics& diagnostics_;
   StudyInput input_;
   std::vector<std::string> paths_;
-  std::vector<std::vector<Tree>> trials_;  // one list for each entry of vary or tune
+  WrittenValues written_;  // one list for each entry of vary or tune
+  bool has_rows_ = true;   // false: a list whose values do not pair
 };
 
 // The study's own keys; everything else belongs to the model.
@@ -269,6 +262,7 @@ std::optional<StudyInput> read_study(const std::string& path, std::span<const Ov
   StudyInput input = reader.read(is_tune ? StudyKind::tune : StudyKind::study);
   diagnostics.append(found);
   if (!found.empty()) return std::nullopt;
+  input.remarks = found.sorted_remarks();
   return input;
 }
 

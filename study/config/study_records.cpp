@@ -53,7 +53,7 @@ class RecordReader {
   std::optional<TimeWindow> read_window(const Tree& tree) {
     const Tree* value = tree.find("window");
     if (value == nullptr || !value->is(Kind::array)) return std::nullopt;
-    const TimeWindow window{value->items[0].as_number(), value->items[1].as_number()};
+    const TimeWindow window{value->items[0].as_number(), value->items[1].as_number(), value->at};
     if (window.first < window.last) return window;
     diagnostics_.add(value->at,
                      fmt::format("window must end after it begins, got {}", shown(*value)),
@@ -90,6 +90,7 @@ class RecordReader {
     response.name = word_of(tree, "name");
     response.signal = word_of(tree, "signal");
     response.at = place_of(tree, "signal");
+    response.name_at = place_of(tree, "name");
     const std::vector<std::string> words = {"max", "min", "max_abs", "rms", "mean", "last"};
     const std::optional<std::size_t> index = word_index(words, word_of(tree, "reduce"));
     if (index) response.reduce = static_cast<Reduction>(*index);

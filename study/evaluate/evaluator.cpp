@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "study/config/precedence.h"
+#include "study/evaluate/check_times.h"
 #include "study/metrics/invalid_point.h"
 
 namespace linkstudy {
@@ -67,41 +69,27 @@ class Stopwatch {
   Clock::time_point begin_ = Clock::now();
 };
 
-struct SignalSource {
-  std::vector<Channel> channels;
-  double end_time = 0.0;
-};
-
-std::optional<SignalSource> read_source(const ModelDocument& document,
-                                        const std::vector<Override>& set,
-                                        Diagnostics& diagnostics) {
+std::optional<std::vector<Channel>> read_channels(const ModelDocument& document,
+                                                  const std::vector<Override>& set,
+                                                  Diagnostics& diagnostics) {
   const std::optional<ModelInput> model = document.with(set, diagnostics);
   if (!model) return std::nullopt;
-  return SignalSource{list_channels(compile(model->linkage).mechanism), model->options.end_time};
-}
-
-std::vector<Override> join(std::vector<Override> set, const std::vector<Override>& more) {
-  set.insert(set.end(), more.begin(), more.end());
-  return set;
+  return list_channels(compile(model->linkage).mechanism);
 }
 
 std::optional<StudySignals> check_study_signals(const StudyInput& input,
                                                 const std::vector<Override>& first,
                                                 Diagnostics& diagnostics) {
   const LoadCaseInput load_case = load_cases_of(input).front();
-  const std::vector<Override> base = join(input.base_set, load_case.set);
-  const auto own = read_source(*input.model, join(base, first), diagnostics);
+  const auto own =
+      read_channels(*input.model, case_overrides(input, load_case, first), diagnostics);
   if (!own) return std::nullopt;
-  StudySignals signals = find_case_signals(input, own->channels, diagnostics);
-  if (!input.reference) {
-    check_signals(input, signals, nullptr, own->end_time, diagnostics);
-    return signals;
-  }
+  StudySignals signals = find_case_signals(input, *own, diagnostics);
+  if (!input.reference) return signals;
   const auto other =
-      read_source(*input.reference->model, join(input.reference->set, load_case.set), diagnostics);
+      read_channels(*input.reference->model, reference_overrides(input, load_case), diagnostics);
   if (!other) return std::nullopt;
-  const StudySignals reference = find_reference_signals(input, other->channels, diagnostics);
-  check_signals(input, signals, &reference, std::min(own->end_time, other->end_time), diagnostics);
+  check_signals(input, signals, find_reference_signals(input, *other, diagnostics), diagnostics);
   return signals;
 }
 
@@ -121,6 +109,10 @@ std::unique_ptr<Evaluator> Evaluator::make(StudyInput input, std::vector<Paramet
                                            Diagnostics& diagnostics) {
   Diagnostics found;
   auto signals = check_study_signals(input, to_overrides(parameters, first), found);
+  if (signals) {
+    check_response_names(input, *signals, parameters, found);
+    check_times(input, found);
+  }
   diagnostics.append(found);
   if (!signals || !found.empty()) return nullptr;
   return std::unique_ptr<Evaluator>(
@@ -184,7 +176,7 @@ std::vector<CaseTraces> Evaluator::reference_traces() const {
 
 std::vector<Override> Evaluator::overrides_of(const LoadCaseInput& load_case,
                                               const std::vector<Value>& point) const {
-  return join(join(input_.base_set, load_case.set), to_overrides(parameters_, point));
+  return case_overrides(input_, load_case, to_overrides(parameters_, point));
 }
 
 struct Evaluator::Attempt {

@@ -4,14 +4,15 @@
 
 #include <algorithm>
 
+#include "study/config/precedence.h"
+
 namespace linkstudy {
 namespace {
 
 ModelInput read_reference(const StudyInput& input, const LoadCaseInput& load_case) {
-  std::vector<Override> set = input.reference->set;
-  set.insert(set.end(), load_case.set.begin(), load_case.set.end());
   Diagnostics diagnostics;
-  std::optional<ModelInput> model = input.reference->model->with(set, diagnostics);
+  std::optional<ModelInput> model =
+      input.reference->model->with(reference_overrides(input, load_case), diagnostics);
   if (model) return std::move(*model);
   const Diagnostic first = diagnostics.sorted().front();
   throw ReferenceFailure(Cause::invalid_point, to_string(first));

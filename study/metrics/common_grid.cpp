@@ -33,4 +33,18 @@ Sampling sample_window(const StepGrid& grid, long stride, const std::optional<Ti
   return {first * stride, std::min(last * stride, last_step), stride};
 }
 
+WindowEnds find_window_ends(const StepGrid& grid, const Sampling& sampling,
+                            const std::optional<TimeWindow>& window) {
+  if (!window || sampling.count() == 0) return {};
+  const double h = grid.h;
+  const double interval = h * static_cast<double>(sampling.stride);
+  const double slack = kTolerance * std::max(1.0, window->last / interval);
+  const auto part = [&](double time) {
+    const double parts = time / interval;
+    return parts > slack ? parts : 0.0;  // an end on a sample is on it in spite of rounding
+  };
+  return {part(h * static_cast<double>(sampling.begin) - window->first),
+          part(window->last - h * static_cast<double>(sampling.last()))};
+}
+
 }  // namespace linkstudy

@@ -29,4 +29,8 @@ std::optional<CommonGrid> find_common_grid(double step, double reference_step);
 // run except its start, where an unloaded spring never matches.
 Sampling sample_window(const StepGrid& grid, long stride, const std::optional<TimeWindow>& window);
 
+// What the window has before and after its samples.
+WindowEnds find_window_ends(const StepGrid& grid, const Sampling& sampling,
+                            const std::optional<TimeWindow>& window);
+
 }  // namespace linkstudy

@@ -62,17 +62,20 @@ void MatchError::measure_reference(const MatchInput& match) {
   double max_square = 0.0;
   double square = 0.0;
   for (std::size_t row = 0; row < samples; ++row) {
+    const long step = sampling_.begin + static_cast<long>(row) * sampling_.stride;
+    const double weight = time_weight(sampling_, {}, step);
     double length_square = 0.0;
     for (std::size_t c = 0; c < n; ++c) {
       const double r = reference_[row * n + c];
       max_scale_[c] = std::max(max_scale_[c], std::abs(r));
-      squares[c] += r * r;
+      squares[c] += weight * r * r;
       length_square += r * r;
     }
     max_square = std::max(max_square, length_square);
-    square += length_square;
+    square += weight * length_square;
   }
-  const auto mean_root = [&](double sum) { return std::sqrt(sum / static_cast<double>(samples)); };
+  const double length = total_weight(sampling_, {});
+  const auto mean_root = [&](double sum) { return std::sqrt(sum / length); };
   rms_scale_.clear();
   for (const double sum : squares) rms_scale_.push_back(mean_root(sum));
   if (match.scale == ErrorScale::vector) {
@@ -98,9 +101,9 @@ std::vector<double> MatchError::reduce(const Comparison& comparison) const {
   for (std::size_t c = 0; c < channels_.size(); ++c) {
     errors.push_back(relative(comparison.max_error[c], max_scale_[c]));
   }
-  const auto seen = static_cast<double>(comparison.seen);
+  const double length = total_weight(sampling_, {});
   for (std::size_t c = 0; c < channels_.size(); ++c) {
-    errors.push_back(relative(std::sqrt(comparison.square_error[c] / seen), rms_scale_[c]));
+    errors.push_back(relative(std::sqrt(comparison.square_error[c] / length), rms_scale_[c]));
   }
   return errors;
 }

@@ -1,7 +1,8 @@
 // Relative error of a signal against its reference, per component c, over the instants t of a
 // window on the common grid:
 //   error_max_c = max_t |x_c - r_c| / s_c,       s_c = max(max_t |r_c|, floor max_k max_t |r_k|)
-//   error_rms_c = sqrt(mean_t (x_c - r_c)^2) / s_c,  s_c likewise with root mean squares of r.
+//   error_rms_c = sqrt(mean_t (x_c - r_c)^2) / s_c,  s_c likewise with root mean squares of r,
+// means over time by the trapezoidal rule (observers.h).
 // The floor serves components that are nearly zero throughout: they are scaled by that fraction of
 // the largest component. With scale = "vector" every s_c is max_t |r| (the root mean square of
 // |r|), |r| the length of the vector. Where s_c is zero the error is 0 if nothing differs, else

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
+
+#include "study/record/column_names.h"
 
 namespace linkstudy {
 namespace {
@@ -37,14 +40,24 @@ std::string component_of(const std::string& channel, const std::string& group) {
   return channel.size() > group.size() ? channel.substr(group.size()) : std::string();
 }
 
+struct NameClash {
+  std::size_t response;  // [[response]]
+  std::string name;
+};
+
 class Lister {
  public:
   Lister(const StudyInput& input, const StudySignals& signals) : input_(input), signals_(signals) {}
+
+  // A name that only the program gives.
+  void reserve(const std::string& name) { owners_.emplace(name, kOurs); }
 
   std::vector<Response> run() {
     for (const LoadCaseInput& load_case : load_cases_of(input_)) add_case(load_case.name);
     return std::move(responses_);
   }
+
+  const std::vector<NameClash>& clashes() const { return clashes_; }
 
  private:
   void add_case(const std::string& load_case) {
@@ -54,10 +67,12 @@ class Lister {
       add_errors("rms", "root-mean-square relative error of", i);
     }
     for (std::size_t i = 0; i < input_.response.size(); ++i) add_response(i);
+    owner_ = kOurs;
     for (const RunNumberText& text : kTexts) add(text.name, text.unit, text.meaning);
   }
 
   void add_errors(const char* norm, const char* meaning, std::size_t i) {
+    owner_ = kOurs;
     for (const Channel& channel : signals_.match[i]) {
       add(fmt::format("error_{}_{}", norm, to_name(channel.name)), "1",
           fmt::format("{} {}", meaning, channel.name));
@@ -65,6 +80,7 @@ class Lister {
   }
 
   void add_response(std::size_t i) {
+    owner_ = static_cast<std::ptrdiff_t>(i);
     constexpr std::array kReductions = {"max", "min", "max_abs", "rms", "mean", "last"};
     const ResponseInput& response = input_.response[i];
     for (const Channel& channel : signals_.response[i]) {
@@ -74,27 +90,57 @@ class Lister {
     }
   }
 
-  // Two matches of one signal (other windows, say) get "_2", "_3".
+  // Two matches of one signal (other windows, say) get "_2", "_3". Another name that is taken is
+  // a clash.
   void add(const std::string& name, const std::string& unit, const std::string& meaning) {
     std::string unique = prefix_ + name;
-    for (int k = 2; is_known(unique); ++k) unique = fmt::format("{}{}_{}", prefix_, name, k);
+    note_clash(unique);
+    for (int k = 2; owners_.contains(unique); ++k)
+      unique = fmt::format("{}{}_{}", prefix_, name, k);
+    owners_.emplace(unique, owner_);
     responses_.push_back({unique, unit, meaning});
   }
 
-  bool is_known(const std::string& name) const {
-    return std::ranges::any_of(responses_, [&](const Response& r) { return r.name == name; });
+  void note_clash(const std::string& name) {
+    const auto taken = owners_.find(name);
+    if (taken == owners_.end() || (owner_ == kOurs && taken->second == kOurs)) return;
+    const std::ptrdiff_t response = owner_ == kOurs ? taken->second : owner_;
+    clashes_.push_back({static_cast<std::size_t>(response), name});
   }
+
+  static constexpr std::ptrdiff_t kOurs = -1;
 
   const StudyInput& input_;
   const StudySignals& signals_;
   std::string prefix_;
+  std::ptrdiff_t owner_ = kOurs;  // [[response]] that is being added
+  std::map<std::string, std::ptrdiff_t> owners_;
   std::vector<Response> responses_;
+  std::vector<NameClash> clashes_;
 };
 
 }  // namespace
 
 std::vector<Response> list_responses(const StudyInput& input, const StudySignals& signals) {
   return Lister(input, signals).run();
+}
+
+void check_response_names(const StudyInput& input, const StudySignals& signals,
+                          const std::vector<Parameter>& parameters, Diagnostics& diagnostics) {
+  Lister lister(input, signals);
+  for (const char* column : kEvaluationColumns) lister.reserve(column);
+  for (const Parameter& parameter : parameters) {
+    lister.reserve(parameter.path);
+    lister.reserve(to_name(parameter.path));
+  }
+  lister.run();
+  for (const NameClash& clash : lister.clashes()) {
+    const ResponseInput& response = input.response[clash.response];
+    diagnostics.add(response.name_at,
+                    fmt::format("response '{}' has the name of another column, '{}'", response.name,
+                                clash.name),
+                    "choose another name");
+  }
 }
 
 std::vector<LoadCaseInput> load_cases_of(const StudyInput& input) {

@@ -27,6 +27,11 @@ inline constexpr std::size_t kRunNumbers = 10;
 
 std::vector<Response> list_responses(const StudyInput& input, const StudySignals& signals);
 
+// Names of [[response]] that are taken: by another response, by an error, by what is always kept,
+// by a parameter (dots written as _ or not), by a column of its own. Reported at the names.
+void check_response_names(const StudyInput& input, const StudySignals& signals,
+                          const std::vector<Parameter>& parameters, Diagnostics& diagnostics);
+
 // Load cases of a study; one without a name when there are none.
 std::vector<LoadCaseInput> load_cases_of(const StudyInput& input);
 

@@ -12,7 +12,7 @@ namespace {
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 double reduce_channel(const ChannelReduction& r, Reduction how) {
-  const auto seen = static_cast<double>(r.seen);
+  const double length = total_weight(r.sampling, r.ends);
   if (r.seen == 0) return kNan;
   switch (how) {
     case Reduction::max:
@@ -22,9 +22,9 @@ double reduce_channel(const ChannelReduction& r, Reduction how) {
     case Reduction::max_abs:
       return std::max(std::abs(r.min), std::abs(r.max));
     case Reduction::rms:
-      return std::sqrt(r.square / seen);
+      return std::sqrt(r.square / length);
     case Reduction::mean:
-      return r.sum / seen;
+      return r.sum / length;
     case Reduction::last:
       break;
   }
@@ -108,6 +108,7 @@ void RunMetrics::add_responses(const StudyInput& input, const StudySignals& sign
       reduction.channel = channel;
       reduction.sampling = sample_window(grid_, 1, response.window);
       if (!response.window) reduction.sampling.begin = 0;
+      reduction.ends = find_window_ends(grid_, reduction.sampling, response.window);
       observers_.reductions.push_back(reduction);
       reductions_.push_back(response.reduce);
     }

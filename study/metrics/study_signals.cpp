@@ -38,15 +38,6 @@ std::vector<std::vector<Channel>> find_gaps(const std::vector<Channel>& channels
   return gaps;
 }
 
-void check_window(const std::optional<TimeWindow>& window, double end_time, const Location& at,
-                  Diagnostics& diagnostics) {
-  if (!window || window->last <= end_time * (1.0 + 1e-9)) return;
-  diagnostics.add(at,
-                  fmt::format("the window of this signal ends at {:g} s, after the run ({:g} s)",
-                              window->last, end_time),
-                  "shorten the window or raise simulation.end_time");
-}
-
 }  // namespace
 
 StudySignals find_case_signals(const StudyInput& input, const std::vector<Channel>& channels,
@@ -83,21 +74,17 @@ StudySignals find_reference_signals(const StudyInput& input, const std::vector<C
 }
 
 void check_signals(const StudyInput& input, const StudySignals& cases,
-                   const StudySignals* reference, double end_time, Diagnostics& diagnostics) {
+                   const StudySignals& reference, Diagnostics& diagnostics) {
   for (std::size_t i = 0; i < input.match.size(); ++i) {
     const MatchInput& match = input.match[i];
-    check_window(match.window, end_time, match.at, diagnostics);
-    if (reference == nullptr || cases.match[i].empty() || reference->match[i].empty()) continue;
+    if (cases.match[i].empty() || reference.match[i].empty()) continue;
     const std::size_t own = cases.match[i].size();
-    const std::size_t other = reference->match[i].size();
+    const std::size_t other = reference.match[i].size();
     if (own == other) continue;
     diagnostics.add(match.reference_at,
                     fmt::format("'{}' has {} components and '{}' of the reference has {}",
                                 match.signal, own, match.reference_signal, other),
                     "compare groups with groups and single channels with single channels");
-  }
-  for (const ResponseInput& response : input.response) {
-    check_window(response.window, end_time, response.at, diagnostics);
   }
 }
 

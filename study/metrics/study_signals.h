@@ -24,9 +24,8 @@ StudySignals find_case_signals(const StudyInput& input, const std::vector<Channe
 StudySignals find_reference_signals(const StudyInput& input, const std::vector<Channel>& channels,
                                     Diagnostics& diagnostics);
 
-// A signal and what it is compared with have equally many components; names of responses are not
-// used twice; windows lie in the runs (end times in s).
+// A signal and what it is compared with have equally many components.
 void check_signals(const StudyInput& input, const StudySignals& cases,
-                   const StudySignals* reference, double end_time, Diagnostics& diagnostics);
+                   const StudySignals& reference, Diagnostics& diagnostics);
 
 }  // namespace linkstudy

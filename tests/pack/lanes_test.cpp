@@ -26,7 +26,7 @@ Observers watch_everything(const Model& model, long steps) {
   const std::vector<Channel> all = list_channels(model.mechanism);
   Observers o;
   o.series.push_back({all, {0, steps, 7}, {}});
-  o.reductions.push_back({all.back(), {1, steps, 2}});
+  o.reductions.push_back({all.back(), {1, steps, 2}, {}});
   return o;
 }
 

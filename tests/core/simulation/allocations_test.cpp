@@ -58,7 +58,7 @@ Observers all_channels(const Model& model, long steps) {
   const std::vector<Channel> all = list_channels(model.mechanism);
   Observers observers;
   observers.series.push_back({all, {0, steps, 1}, {}});
-  observers.reductions.push_back({all.back(), {0, steps, 1}});
+  observers.reductions.push_back({all.back(), {0, steps, 1}, {}});
   return observers;
 }
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace linkstudy {
 namespace {
 
@@ -54,6 +56,53 @@ TEST(SampleWindow, Keeps_to_the_common_instants_inside_it) {
   EXPECT_EQ(sampling.begin, 14);  // 0.14 s is the first multiple of 0.07 s from 0.1 s on
   EXPECT_EQ(sampling.end, 49);
   EXPECT_EQ(sample_window(grid, 7, std::nullopt).end, 98);
+}
+
+TEST(WindowEnds, Are_what_a_window_has_beyond_its_samples) {
+  const StepGrid grid{100, 0.01};
+  const auto ends_of = [&](const TimeWindow& window) {
+    return find_window_ends(grid, sample_window(grid, 1, window), window);
+  };
+  EXPECT_NEAR(ends_of({0.103, 0.508}).before, 0.7, 1e-9);
+  EXPECT_NEAR(ends_of({0.103, 0.508}).after, 0.8, 1e-9);
+  // 0.1 / 0.01 is no integer in floating point, and still the end lies on its sample.
+  EXPECT_EQ(ends_of({0.1, 0.7}).before, 0.0);
+  EXPECT_EQ(ends_of({0.1, 0.7}).after, 0.0);
+  EXPECT_EQ(find_window_ends(grid, {0, 100, 1}, std::nullopt).before, 0.0);
+}
+
+// Mean of a course over a window by the weights of its samples.
+double mean_of(double (*course)(double), const StepGrid& grid, const TimeWindow& window) {
+  const Sampling sampling = sample_window(grid, 1, window);
+  const WindowEnds ends = find_window_ends(grid, sampling, window);
+  double sum = 0.0;
+  for (long step = sampling.begin; step <= sampling.end; ++step) {
+    sum += time_weight(sampling, ends, step) * course(static_cast<double>(step) * grid.h);
+  }
+  return sum / total_weight(sampling, ends);
+}
+
+TEST(TimeWeights, Give_means_of_second_order_wherever_the_window_ends) {
+  const auto wave = [](double t) { return std::sin(3.0 * t); };
+  for (const TimeWindow& window :
+       {TimeWindow{0.0, 2.0}, TimeWindow{0.1, 1.9}, TimeWindow{0.1234, 1.777}}) {
+    const double exact = (std::cos(3.0 * window.first) - std::cos(3.0 * window.last)) / 3.0 /
+                         (window.last - window.first);
+    for (long count = 40; count <= 5120; count *= 2) {
+      const double h = 2.0 / static_cast<double>(count);
+      // Inside: (b - a) h^2 max |f''| / 12; each end: h^2 max |f'| / 2.
+      const double length = window.last - window.first;
+      const double bound = h * h * (9.0 / 12.0 + 3.0 / length);
+      EXPECT_LE(std::abs(mean_of(wave, {count, h}, window) - exact), bound) << count;
+    }
+  }
+}
+
+TEST(TimeWeights, Of_one_sample_give_its_value) {
+  const auto line = [](double t) { return t; };
+  EXPECT_DOUBLE_EQ(mean_of(line, {10, 0.1}, {0.25, 0.33}), 0.3);
+  EXPECT_EQ(time_weight({4, 4, 1}, {}, 4), 1.0);
+  EXPECT_EQ(total_weight({4, 4, 1}, {}), 1.0);
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ class MatchErrors : public ::testing::Test {
     Comparison comparison = error.make_comparison();
     comparison.seen = comparison.sampling.count();
     comparison.max_error.assign(3, offset);
-    comparison.square_error.assign(3, offset * offset * static_cast<double>(comparison.seen));
+    comparison.square_error.assign(3, offset * offset * total_weight(comparison.sampling, {}));
     return error.reduce(comparison);
   }
 

@@ -1,0 +1,275 @@
+#include "study/config/study_cases.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "study/config/case_selection.h"
+#include "study/config/precedence.h"
+#include "study/record/sequence.h"
+
+namespace linkstudy {
+namespace {
+
+// Models built and checked before anything runs.
+constexpr std::size_t kMostTrials = 256;  // of all load cases together
+constexpr std::size_t kLeastTrials = 16;  // of one load case
+
+std::size_t most_trials(const StudyInput& input) {
+  return std::max(kLeastTrials, kMostTrials / std::max<std::size_t>(1, input.load_case.size()));
+}
+
+std::string path_of(const StudyInput& input, std::size_t i) {
+  return input.kind == StudyKind::study ? input.vary[i].parameter.path
+                                        : input.tune[i].parameter.path;
+}
+
+const Location& place_of(const StudyInput& input, std::size_t i) {
+  return input.kind == StudyKind::study ? input.vary[i].at : input.tune[i].at;
+}
+
+// Two spellings of one number differ by the rounding of their units at most.
+std::string key_of(const Value& value) {
+  const double* number = std::get_if<double>(&value);
+  if (number == nullptr) return std::get<std::string>(value);
+  return fmt::format("{:.12e}", *number == 0.0 ? 0.0 : *number);
+}
+
+std::string shown_row(const StudyInput& input, std::size_t first, std::size_t end,
+                      std::size_t position) {
+  std::vector<std::string> parts;
+  for (std::size_t i = first; i < end; ++i) {
+    const Value& value = input.vary[i].values[position];
+    const double* number = std::get_if<double>(&value);
+    const std::string text =
+        number != nullptr ? fmt::format("{:.9g}", *number) : std::get<std::string>(value);
+    const std::string& unit = input.vary[i].parameter.unit;
+    parts.push_back(unit.empty() ? text : text + " " + unit);
+  }
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+template <class T>
+void keep_positions(std::vector<T>& values, const std::vector<std::size_t>& kept) {
+  std::vector<T> rest;
+  for (const std::size_t i : kept) rest.push_back(std::move(values[i]));
+  values = std::move(rest);
+}
+
+// The entries first .. end - 1 side by side.
+void merge_rows(StudyInput& input, WrittenValues& written, std::size_t first, std::size_t end,
+                Diagnostics& diagnostics) {
+  struct Row {
+    std::size_t position;
+    std::size_t count = 1;
+    std::size_t again = 0;  // where it comes for the second time
+  };
+  std::map<std::vector<std::string>, Row> rows;
+  std::vector<std::size_t> kept;
+  for (std::size_t k = 0; k < input.vary[first].values.size(); ++k) {
+    std::vector<std::string> key;
+    for (std::size_t i = first; i < end; ++i) key.push_back(key_of(input.vary[i].values[k]));
+    const auto [row, is_new] = rows.emplace(std::move(key), Row{k});
+    if (is_new) {
+      kept.push_back(k);
+    } else if (row->second.count++ == 1) {
+      row->second.again = k;
+    }
+  }
+  if (kept.size() == input.vary[first].values.size()) return;
+  for (const auto& [key, row] : rows) {
+    if (row.count == 1) continue;
+    diagnostics.remark(
+        Severity::note, written[first][row.again].at,
+        fmt::format("{} of '{}' is given {} times and runs once",
+                    shown_row(input, first, end, row.position), path_of(input, first), row.count),
+        "cases are counted without the repetitions");
+  }
+  for (std::size_t i = first; i < end; ++i) {
+    keep_positions(input.vary[i].values, kept);
+    keep_positions(written[i], kept);
+  }
+}
+
+// A value that is set, and whether it has been seen to act.
+struct Watched {
+  std::string path;
+  Location at;
+  bool acts = false;
+  std::optional<Ineffective> why;
+
+  void look(const Tree& model, const std::string& verb) {
+    if (acts) return;
+    std::optional<Ineffective> found = find_ineffective(model, model_schema(), path, verb);
+    acts = !found;
+    if (!why) why = std::move(found);
+  }
+};
+
+std::vector<Watched> watch(std::span<const Override> set) {
+  std::vector<Watched> watched;
+  for (const Override& one : set) watched.push_back({one.path, one.origin, false, std::nullopt});
+  return watched;
+}
+
+class CaseCheck {
+ public:
+  CaseCheck(const StudyInput& input, const WrittenValues& written,
+            std::span<const Override> command_line, Diagnostics& diagnostics)
+      : input_(input),
+        written_(written),
+        diagnostics_(diagnostics),
+        verb_(input.kind == StudyKind::study ? "study" : "tune"),
+        options_(watch(command_line)) {
+    for (std::size_t i = 0; i < written.size(); ++i) {
+      varied_.push_back({path_of(input, i), place_of(input, i), false, std::nullopt});
+    }
+    for (const Override& one : input.base_set) {
+      // What --set wrote there is watched as such.
+      if (one.origin.line > 0) sets_.push_back({one.path, one.origin, false, std::nullopt});
+    }
+  }
+
+  void run() {
+    std::vector<LoadCaseInput> load_cases = input_.load_case;
+    if (load_cases.empty()) load_cases.emplace_back();
+    const std::vector<CasePositions> cases = chosen_cases();
+    for (const LoadCaseInput& load_case : load_cases) {
+      try_reference(load_case);
+      std::vector<Watched> own = watch(load_case.set);
+      for (const CasePositions& positions : cases) try_case(load_case, positions, own);
+      sets_.insert(sets_.end(), own.begin(), own.end());
+    }
+    if (!diagnostics_.empty() || models_ == 0) return;
+    report_varied();
+    for (const Watched& one : sets_) report_set(one);
+    for (const Watched& one : options_) report_set(one);
+    report_written();
+  }
+
+ private:
+  std::vector<CasePositions> chosen_cases() const {
+    std::vector<std::size_t> sizes;
+    for (const std::vector<Tree>& values : written_) sizes.push_back(values.size());
+    return choose_cases(input_.design, sizes, most_trials(input_));
+  }
+
+  // What one place is wrong about is said once, by the first case.
+  void add_new(const Diagnostics& found) {
+    for (const Diagnostic& d : found.sorted()) {
+      if (places_.emplace(d.file, d.line, d.column).second) diagnostics_.add(d);
+    }
+  }
+
+  std::optional<ModelInput> build(const ModelDocument& document,
+                                  const std::vector<Override>& overrides) {
+    Diagnostics found;
+    std::optional<ModelInput> model = document.with(overrides, found);
+    add_new(found);
+    if (!model) return model;
+    ++models_;
+    for (const Ineffective& one : model->ineffective) {
+      if (one.stands_by) continue;
+      const auto [entry, is_new] = written_idle_.emplace(one.path, std::pair(one, std::size_t{0}));
+      ++entry->second.second;
+    }
+    return model;
+  }
+
+  void try_case(const LoadCaseInput& load_case, const CasePositions& positions,
+                std::vector<Watched>& own) {
+    std::vector<Override> point;
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      const Tree& value = written_[i][positions[i]];
+      point.push_back({varied_[i].path, value, value.at});
+    }
+    const auto model = build(*input_.model, case_overrides(input_, load_case, std::move(point)));
+    if (!model) return;
+    for (std::vector<Watched>* all : {&varied_, &sets_, &options_, &own}) {
+      for (Watched& one : *all) one.look(model->resolved, verb_);
+    }
+  }
+
+  void try_reference(const LoadCaseInput& load_case) {
+    if (!input_.reference || !input_.reference->model) return;
+    const auto model = build(*input_.reference->model, reference_overrides(input_, load_case));
+    if (!model) return;
+    for (Watched& one : options_) one.look(model->resolved, verb_);
+    std::vector<Watched> own = watch(input_.reference->set);
+    for (Watched& one : own) {
+      one.look(model->resolved, verb_);
+      if (one.at.line > 0) sets_.push_back(one);
+    }
+  }
+
+  void report_varied() {
+    for (const Watched& one : varied_) {
+      if (one.acts || !one.why) continue;
+      diagnostics_.add(one.at,
+                       fmt::format("'{}' has no effect on any case: {}", one.path, one.why->reason),
+                       one.why->remedy);
+    }
+  }
+
+  void report_set(const Watched& one) {
+    if (one.acts || !one.why) return;
+    diagnostics_.remark(Severity::warning, one.at, one.why->message(), one.why->remedy);
+  }
+
+  // What the model file states, in whatever case.
+  void report_written() {
+    for (const auto& [path, entry] : written_idle_) {
+      const auto& [one, count] = entry;
+      if (count == models_) {
+        diagnostics_.remark(Severity::warning, one.at, one.message(), one.remedy);
+      }
+    }
+  }
+
+  const StudyInput& input_;
+  const WrittenValues& written_;
+  Diagnostics& diagnostics_;
+  std::string verb_;
+  std::vector<Watched> varied_, sets_, options_;
+  std::map<std::string, std::pair<Ineffective, std::size_t>> written_idle_;
+  std::set<std::tuple<std::string, int, int>> places_;
+  std::size_t models_ = 0;
+};
+
+// The entry whose values make too many cases of those before it.
+bool report_size(const StudyInput& input, const WrittenValues& written, Diagnostics& diagnostics) {
+  std::vector<std::size_t> sizes;
+  for (std::size_t i = 0; i < written.size(); ++i) {
+    sizes.push_back(written[i].size());
+    if (count_cases(input.design, sizes)) continue;
+    diagnostics.add(place_of(input, i),
+                    fmt::format("the grid of {} cases up to here has more than the {} allowed",
+                                fmt::join(sizes, " x "), max_points),
+                    "use fewer values, or design = { type = \"list\" }");
+    return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+void merge_equal_values(StudyInput& input, WrittenValues& written, Diagnostics& diagnostics) {
+  if (input.vary.size() != written.size()) return;
+  if (input.design == DesignType::list) {
+    if (!written.empty()) merge_rows(input, written, 0, written.size(), diagnostics);
+    return;
+  }
+  for (std::size_t i = 0; i < written.size(); ++i)
+    merge_rows(input, written, i, i + 1, diagnostics);
+}
+
+void check_cases(const StudyInput& input, const WrittenValues& written,
+                 std::span<const Override> command_line, Diagnostics& diagnostics) {
+  if (!input.model) return;
+  if (input.kind == StudyKind::study && report_size(input, written, diagnostics)) return;
+  CaseCheck(input, written, command_line, diagnostics).run();
+}
+
+}  // namespace linkstudy

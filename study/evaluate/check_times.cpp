@@ -1,0 +1,178 @@
+#include "study/evaluate/check_times.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "study/config/case_selection.h"
+#include "study/config/precedence.h"
+#include "study/config/value_path.h"
+#include "study/metrics/common_grid.h"
+#include "study/metrics/response_list.h"
+
+namespace linkstudy {
+namespace {
+
+constexpr std::size_t kMostCases = 256;
+constexpr const char* kStepPath = "simulation.step";
+
+// The times of one run.
+struct RunTimes {
+  double end_time = 0.0;  // s
+  StepGrid grid{};
+  Location step_at;
+};
+
+std::optional<RunTimes> read_times(const ModelDocument& document,
+                                   const std::vector<Override>& overrides) {
+  Diagnostics said_before;
+  const std::optional<ModelInput> model = document.with(overrides, said_before);
+  if (!model) return std::nullopt;
+  return RunTimes{model->options.end_time, make_step_grid(model->options),
+                  locate(model->resolved, kStepPath)};
+}
+
+class TimesCheck {
+ public:
+  TimesCheck(const StudyInput& input, Diagnostics& diagnostics)
+      : input_(input), diagnostics_(diagnostics) {}
+
+  void run() {
+    const std::vector<std::vector<Override>> points = deciding_points();
+    for (const LoadCaseInput& load_case : load_cases_of(input_)) {
+      std::optional<RunTimes> reference;
+      if (input_.reference) {
+        reference = read_times(*input_.reference->model, reference_overrides(input_, load_case));
+        if (!reference) continue;
+      }
+      for (const std::vector<Override>& point : points) {
+        const auto own = read_times(*input_.model, case_overrides(input_, load_case, point));
+        if (own) check_run(*own, reference);
+      }
+    }
+  }
+
+ private:
+  std::vector<std::vector<Override>> deciding_points() const {
+    return input_.kind == StudyKind::tune ? steps_of_tune() : points_of_study();
+  }
+
+  std::vector<std::vector<Override>> steps_of_tune() const {
+    std::vector<Override> point;
+    for (const TuneInput& tune : input_.tune) {
+      point.push_back(make_override(tune.parameter.path, tune.low));
+    }
+    std::vector<std::vector<Override>> points = {point};
+    Diagnostics said_before;
+    const auto model = input_.model->with(case_overrides(input_, {}, point), said_before);
+    if (!model) return points;
+    point.push_back(make_override(kStepPath, model->options.step / 2.0));
+    points.push_back(point);
+    return points;
+  }
+
+  // Of a grid, axes that leave the times alone stay at their first value.
+  std::vector<std::vector<Override>> points_of_study() const {
+    std::vector<std::size_t> sizes;
+    for (const VaryInput& vary : input_.vary) {
+      const bool counts = input_.design == DesignType::list || decides_times(vary.parameter.path);
+      sizes.push_back(counts ? vary.values.size() : 1);
+    }
+    std::vector<std::vector<Override>> points;
+    for (const CasePositions& positions : choose_cases(input_.design, sizes, kMostCases)) {
+      std::vector<Override>& point = points.emplace_back();
+      for (std::size_t i = 0; i < positions.size(); ++i) {
+        const VaryInput& vary = input_.vary[i];
+        point.push_back(make_override(vary.parameter.path, vary.values[positions[i]]));
+        point.back().value.at = vary.at;
+      }
+    }
+    return points;
+  }
+
+  static bool decides_times(const std::string& path) {
+    return split_path(path).front() == "simulation";
+  }
+
+  void check_run(const RunTimes& own, const std::optional<RunTimes>& reference) {
+    for (const MatchInput& match : input_.match) {
+      if (reference) check_match(match, own, *reference);
+    }
+    for (const ResponseInput& response : input_.response) {
+      const Location& at = place_of(response.window, response.at);
+      if (!check_end(response.window, own.end_time, at)) continue;
+      if (response.window && sample_window(own.grid, 1, response.window).count() == 0) {
+        report_empty(*response.window, own.grid.h, "the steps of the run lie", at);
+      }
+    }
+  }
+
+  void check_match(const MatchInput& match, const RunTimes& own, const RunTimes& reference) {
+    const Location& at = place_of(match.window, match.at);
+    if (!check_end(match.window, std::min(own.end_time, reference.end_time), at)) return;
+    const std::optional<CommonGrid> common = find_common_grid(own.grid.h, reference.grid.h);
+    if (!common) return report_grids(match, own, reference);
+    const Sampling sampling = sample_window(own.grid, common->stride, match.window);
+    const double interval = own.grid.h * static_cast<double>(common->stride);
+    if (sampling.count() == 0) {
+      const TimeWindow whole{0.0, own.end_time, match.at};
+      return report_empty(match.window.value_or(whole), interval, "the run and its reference meet",
+                          at);
+    }
+    const long last = sampling.last() / common->stride * common->reference_stride;
+    if (last <= reference.grid.count) return;
+    report(at,
+           fmt::format("'{}' is compared up to {:.9g} s, and the reference run ends at {:.9g} s",
+                       match.signal, own.end_time, reference.end_time),
+           "give a window, or equal end times");
+  }
+
+  void report_grids(const MatchInput& match, const RunTimes& own, const RunTimes& reference) {
+    report(own.step_at,
+           fmt::format("the steps {:.9g} s of a case and {:.9g} s of the reference have no common "
+                       "time grid, so that '{}' cannot be compared",
+                       own.grid.h, reference.grid.h, match.signal),
+           fmt::format("choose steps whose ratio is one of integers up to {}", kLargestRatio));
+  }
+
+  static const Location& place_of(const std::optional<TimeWindow>& window, const Location& signal) {
+    return window && window->at.file ? window->at : signal;
+  }
+
+  bool check_end(const std::optional<TimeWindow>& window, double end_time, const Location& at) {
+    if (!window || window->last <= end_time * (1.0 + 1e-9)) return true;
+    report(at,
+           fmt::format("the window of this signal ends at {:g} s, after the run ({:g} s)",
+                       window->last, end_time),
+           "shorten the window or raise simulation.end_time");
+    return false;
+  }
+
+  void report_empty(const TimeWindow& window, double interval, const char* what,
+                    const Location& at) {
+    report(at,
+           fmt::format("the window [{:.9g}, {:.9g}] s holds no instant: {} {:.9g} s apart",
+                       window.first, window.last, what, interval),
+           "widen the window or take smaller steps");
+  }
+
+  // Of one place, the first case speaks.
+  void report(const Location& at, std::string message, std::string remedy) {
+    const std::string file = at.file ? *at.file : std::string();
+    if (!places_.emplace(file, at.line, at.column).second) return;
+    diagnostics_.add(at, std::move(message), std::move(remedy));
+  }
+
+  const StudyInput& input_;
+  Diagnostics& diagnostics_;
+  std::set<std::tuple<std::string, int, int>> places_;
+};
+
+}  // namespace
+
+void check_times(const StudyInput& input, Diagnostics& diagnostics) {
+  TimesCheck(input, diagnostics).run();
+}
+
+}  // namespace linkstudy
