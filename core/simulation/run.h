@@ -46,6 +46,10 @@ class Run {
     const FlushDenormals flush;
     for (step_ = 0;; ++step_) {
       const double t = time();
+      if (step_ == 0 && contact_count(m_) > 0) {
+        differentiate_kept(t);
+        begin_contact_memory(m_, w_);
+      }
       differentiate_kept(t);
       now_.move_to(t, y_.data());
       if (step_ == 0) checks_.start_ledger(now_);
