@@ -44,11 +44,11 @@ inline void add_contact_wrench(const ClearanceStructure& c, const ContactGeometr
   x.contact_surplus = x.contact_surplus + more;
 }
 
-// Friction of one contact, and the rate of its bristle.
+// Friction of one contact, and the rates of its bristle.
 template <class Real, class Mask, class W>
 inline Real contact_friction(const ClearanceStructure& structure, const ContactStructure& contact,
                              const ClearanceParameters<Real>& n, const Mask& acts,
-                             const ContactState<Real>& s, W& w) {
+                             ContactState<Real>& s, W& w) {
   if (contact.z < 0) return Real(0.0);
   const Real z = at(w.z, contact.z);
   const Real free_rate = free_bristle_rate(structure.free_bristle, n, z);
@@ -58,6 +58,7 @@ inline Real contact_friction(const ClearanceStructure& structure, const ContactS
   }
   const LugreState<Real> f = lugre_friction(n.friction, z, s.speed);
   at(w.z_rate, contact.z) = select(acts, f.z_rate, free_rate);
+  s.relaxation = select(acts, f.relaxation, Real(0.0));
   return f.mu * s.normal;
 }
 
@@ -76,13 +77,13 @@ template <class M, class C, class I, class Real>
   s.speed = structure.points == ContactPoints::one
                 ? k.speed
                 : madd(k.depth, dot(j.omega_journal, j.a), k.speed);
-  s.normal = s.elastic = s.friction = Real(0.0);
+  s.normal = s.elastic = s.friction = s.relaxation = Real(0.0);
+  s.approach = approach_speed(structure.approach, memory, k.depth, k.rate);
   const auto acts = k.depth > memory.least_depth;
   if (any(acts)) {
     const Real depth = select(acts, k.depth, Real(0.0));
-    const ContactForce<Real> f = normal_contact_force(
-        n.contact, structure.hertz, depth, k.rate,
-        approach_speed(structure.approach, memory, k.depth, k.rate), structure.approach);
+    const ContactForce<Real> f = normal_contact_force(n.contact, structure.hertz, depth, k.rate,
+                                                      s.approach, structure.approach);
     s.normal = select(acts, f.normal, Real(0.0));
     s.elastic = select(acts, f.elastic, Real(0.0));
   }

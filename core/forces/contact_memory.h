@@ -44,9 +44,7 @@ inline void update_contact_memory(const M& m, Workspace<Real, M>& w, Real* steps
     const auto touches = s.depth > memory.least_depth;
     const auto touched = memory.touching > Real(0.5);
     const auto ended = touched && !touches;
-    const ApproachSpeed which = at(m.clearances, contact.clearance).approach;
-    const Real approach = approach_speed(which, memory, s.depth, s.rate);
-    memory.approach = select(touches, approach, none);
+    memory.approach = select(touches, s.approach, none);
     log.begun = log.begun + select(touches && !touched, one, none);
     log.least_steps = select(ended, min(log.least_steps, steps[i]), log.least_steps);
     steps[i] = select(touches, select(touched, steps[i] + one, one), none);

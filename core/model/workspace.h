@@ -55,6 +55,8 @@ struct ContactState {
   Real normal, elastic;     // normal force and its elastic part, N
   Real speed;               // of the journal against the bearing along a x u, m/s
   Real friction;            // against this speed, N
+  Real approach;            // speed at which this contact began, m/s
+  Real relaxation;          // of the bristle, 1/s; 0 where it does not touch
 };
 
 // What a contact remembers of the accepted states; constant during a step. As made here it is a
@@ -74,6 +76,7 @@ struct JointFrictionState {
   Real load;               // N
   Real mu_turn, mu_slide;  // along the sliding velocity
   Real on_turn, on_slide;  // N m, N: against the motion
+  Real relaxation;         // of its bristles, 1/s
   // Scratch of the search for loads: gaps to what the reactions ask for, last change, products.
   Real gap, next_gap, change, missed, row;
 };
