@@ -51,12 +51,14 @@ inline void update_coefficients(const JointFrictionStructure& s,
         n.law, std::array{at(w.z, s.z), at(w.z, s.z + 1)}, std::array{turning, sliding});
     x.mu_turn = f.mu[0];
     x.mu_slide = f.mu[1];
+    x.relaxation = f.relaxation;
     at(w.z_rate, s.z) = f.z_rate[0];
     at(w.z_rate, s.z + 1) = f.z_rate[1];
     return;
   }
   const LugreState<Real> f = lugre_friction(n.law, at(w.z, s.z), s.turn >= 0 ? turning : sliding);
   (s.turn >= 0 ? x.mu_turn : x.mu_slide) = f.mu;
+  x.relaxation = f.relaxation;
   at(w.z_rate, s.z) = f.z_rate;
 }
 

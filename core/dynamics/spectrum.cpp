@@ -16,7 +16,12 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kBristleStep = 1e-6;  // m; what acts is linear in bristles
+// What acts is linear in bristles, but loads of joints follow it only so far: a part of what a
+// bristle can be bent that changes no load by much.
+constexpr double kBristleStep = 1e-6;
+// Friction changes within its Stribeck speed, contacts within their depth.
+constexpr double kRubbing = 1e-3;  // of the steps of velocities
+constexpr double kOfDepth = 0.02;
 
 bool is_shut(const ClosureState<double>& x) {
   const Vec3<double> gap = x.p2 - x.p1;
@@ -82,11 +87,60 @@ VectorXd slopes(const Model& model, const State<double>& s, Workspace<double>& w
   return x;
 }
 
-MatrixXd linear_system(const Model& model, const State<double>& s) {
+void hold_contacts(const Mechanism& m, const std::vector<double>& approach, Workspace<double>& w) {
+  hold_contacts_open(m, w);
+  for (std::size_t i = 0; i < approach.size(); ++i) {
+    if (approach[i] < 0.0) continue;
+    w.memory[i] = {0.0, 0.0, 1.0, approach[i], 0.0};
+  }
+}
+
+// Of the shut contacts, m; infinite without one.
+double least_depth(const Model& model, const State<double>& s, Workspace<double>& w) {
+  compute_motion(model.mechanism, model.parameters, s, w);
+  double least = std::numeric_limits<double>::infinity();
+  for (const ContactState<double>& c : w.contacts) {
+    if (c.elastic > 0.0) least = std::min(least, c.depth);
+  }
+  return least;
+}
+
+struct Steps {
+  VectorXd q, v, z;
+};
+
+Steps choose_steps(const Model& model, const State<double>& s, Workspace<double>& w) {
+  const Mechanism& m = model.mechanism;
+  const VectorXd smooth = difference_steps(model, s);
+  Steps steps{smooth, smooth, VectorXd(m.nz)};
+  const double depth = least_depth(model, s, w);
+  if (std::isfinite(depth)) {
+    const double part = kOfDepth * depth / std::max(compute_extent(model, s).length, 1.0);
+    steps.q = smooth.cwiseMin(part);
+  }
+  if (m.nz > 0 || std::isfinite(depth)) steps.v *= kRubbing;
+  const auto bend = [&](int z, const LugreParameters<double>& law) {
+    steps.z[z] = kBristleStep * law.mu_k / law.sigma0;
+  };
+  for (std::size_t i = 0; i < m.frictions.size(); ++i) {
+    const JointFrictionStructure& f = m.frictions[i];
+    bend(f.z, model.parameters.frictions[i].law);
+    if (f.turn >= 0 && f.slide >= 0) bend(f.z + 1, model.parameters.frictions[i].law);
+  }
+  for (const ContactStructure& c : m.contacts) {
+    if (c.z >= 0) {
+      bend(c.z, model.parameters.clearances[static_cast<std::size_t>(c.clearance)].friction);
+    }
+  }
+  return steps;
+}
+
+MatrixXd linear_system(const Model& model, const State<double>& s,
+                       const std::vector<double>& approach) {
   const Mechanism& m = model.mechanism;
   Workspace<double> w = make_workspace<double>(m);
-  hold_contacts_open(m, w);
-  const VectorXd steps = difference_steps(model, s);
+  hold_contacts(m, approach, w);
+  const Steps steps = choose_steps(model, s, w);
   MatrixXd a = MatrixXd::Zero(2 * m.nv + m.nz, 2 * m.nv + m.nz);
   fill_kinematics(m, s, a);
   for (int k = 0; k < m.nv; ++k) {
@@ -98,8 +152,8 @@ MatrixXd linear_system(const Model& model, const State<double>& s) {
       moved.v[static_cast<std::size_t>(k)] += x;
       return slopes(model, moved, w);
     };
-    a.block(m.nv, k, m.nv + m.nz, 1) = differentiate(at_position, steps[k]).value;
-    a.block(m.nv, m.nv + k, m.nv + m.nz, 1) = differentiate(at_velocity, steps[k]).value;
+    a.block(m.nv, k, m.nv + m.nz, 1) = differentiate(at_position, steps.q[k]).value;
+    a.block(m.nv, m.nv + k, m.nv + m.nz, 1) = differentiate(at_velocity, steps.v[k]).value;
   }
   for (int i = 0; i < m.nz; ++i) {
     const auto at_bristle = [&](double x) {
@@ -107,7 +161,7 @@ MatrixXd linear_system(const Model& model, const State<double>& s) {
       moved.z[static_cast<std::size_t>(i)] += x;
       return slopes(model, moved, w);
     };
-    a.block(m.nv, 2 * m.nv + i, m.nv + m.nz, 1) = differentiate(at_bristle, kBristleStep).value;
+    a.block(m.nv, 2 * m.nv + i, m.nv + m.nz, 1) = differentiate(at_bristle, steps.z[i]).value;
   }
   return a;
 }
@@ -136,20 +190,27 @@ double stable_step(std::complex<double> lambda) {
   return inside / size;
 }
 
-Spectrum compute_spectrum(const Model& model, const State<double>& s) {
-  const Mechanism& m = model.mechanism;
+Spectrum spectrum_of(std::vector<std::complex<double>> eigenvalues) {
   Spectrum result;
   result.step_limit = std::numeric_limits<double>::infinity();
-  if (m.nv == 0) return result;
-  const MatrixXd a = linear_system(with_directions(model, s), s);
-  if (!a.allFinite()) return result;
-  const Eigen::VectorXcd eigenvalues = Eigen::EigenSolver<MatrixXd>(a, false).eigenvalues();
-  for (const std::complex<double>& lambda : eigenvalues) {
-    result.eigenvalues.push_back(lambda);
+  result.eigenvalues = std::move(eigenvalues);
+  for (const std::complex<double>& lambda : result.eigenvalues) {
     result.omega_max = std::max(result.omega_max, std::abs(lambda));
     result.step_limit = std::min(result.step_limit, stable_step(lambda));
   }
   return result;
+}
+
+Spectrum compute_spectrum(const Model& model, const State<double>& s,
+                          const std::vector<double>& approach) {
+  if (model.mechanism.nv == 0) return spectrum_of({});
+  const MatrixXd a = linear_system(with_directions(model, s), s, approach);
+  if (!a.allFinite()) {
+    const double unknown = std::numeric_limits<double>::quiet_NaN();
+    return {{}, unknown, unknown};
+  }
+  const Eigen::VectorXcd lambda = Eigen::EigenSolver<MatrixXd>(a, false).eigenvalues();
+  return spectrum_of({lambda.begin(), lambda.end()});
 }
 
 }  // namespace linkstudy

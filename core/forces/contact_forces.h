@@ -2,13 +2,13 @@
 // (core/laws/normal_contact.h) and LuGre friction (core/laws/lugre_friction.h) between journal and
 // bearing, equal and opposite at one point in space.
 //   on the journal   -N n at c + X,   -mu N t at K = c + r_b u
-//   (core/kinematics/contact_kinematics.h)
+//   (core/kinematics/contact_kinematics.h; there too: friction at two points)
 // Their power leaves the bodies as N delta_dot + mu N v_t: K delta^n delta_dot is stored, the rest
 // is dissipated (what the bristles store counts as dissipated).
 //
-// The approach speed of a contact is that of its beginning, and more if it is driven faster later;
-// its law then never pulls. In the step where it begins that speed is found from the states around
-// the crossing.
+// The approach speed of a contact is that of its beginning (or more, if it is driven faster later
+// and ApproachSpeed::greatest is asked for). In the step where it begins that speed is found from
+// the states around the crossing; a contact that is there at the start has begun with its rate.
 #pragma once
 
 #include "core/kinematics/contact_kinematics.h"
@@ -16,9 +16,11 @@
 namespace linkstudy {
 
 template <class Real>
-inline Real approach_speed(const ContactMemory<Real>& memory, Real depth, Real rate) {
-  return select(memory.touching > Real(0.5), memory.approach,
-                crossing_speed(memory.depth, memory.rate, depth, rate));
+inline Real approach_speed(ApproachSpeed which, const ContactMemory<Real>& memory, Real depth,
+                           Real rate) {
+  const Real begin = select(memory.touching > Real(0.5), memory.approach,
+                            crossing_speed(memory.depth, memory.rate, depth, rate));
+  return dividing_speed(which, begin, rate);
 }
 
 template <class Real>
@@ -27,19 +29,26 @@ inline Real free_bristle_rate(FreeBristle rule, const ClearanceParameters<Real>&
 }
 
 template <class Real>
-inline void add_contact_wrench(const ContactGeometry<Real>& k, const Vec3<Real>& axis, Real sign,
-                               const ContactState<Real>& s, ClosureState<Real>& x) {
+inline void add_contact_wrench(const ClearanceStructure& c, const ContactGeometry<Real>& k,
+                               const Vec3<Real>& axis, const ContactState<Real>& s,
+                               ClosureState<Real>& x) {
+  const Real sign(c.bearing_first ? -1.0 : 1.0);
   const Vec3<Real> force = sign * (madd(Real(0.0) - s.normal, k.n, (Real(0.0) - s.friction) * k.t));
   const Vec3<Real> couple = (sign * (Real(0.0) - s.friction) * k.arm) * axis;
   x.contact_force = x.contact_force + force;
   x.contact_moment = x.contact_moment + cross(k.point - x.p1, force) + couple;
+  if (c.points == ContactPoints::one) return;
+  // The journal's arm is longer by the depth, whichever body carries it.
+  const Vec3<Real> more = ((Real(0.0) - s.friction) * k.depth) * axis;
+  if (!c.bearing_first) x.contact_moment = x.contact_moment + more;
+  x.contact_surplus = x.contact_surplus + more;
 }
 
-// Friction of one contact, and the rate of its bristle.
+// Friction of one contact, and the rates of its bristle.
 template <class Real, class Mask, class W>
 inline Real contact_friction(const ClearanceStructure& structure, const ContactStructure& contact,
                              const ClearanceParameters<Real>& n, const Mask& acts,
-                             const ContactState<Real>& s, W& w) {
+                             ContactState<Real>& s, W& w) {
   if (contact.z < 0) return Real(0.0);
   const Real z = at(w.z, contact.z);
   const Real free_rate = free_bristle_rate(structure.free_bristle, n, z);
@@ -49,6 +58,7 @@ inline Real contact_friction(const ClearanceStructure& structure, const ContactS
   }
   const LugreState<Real> f = lugre_friction(n.friction, z, s.speed);
   at(w.z_rate, contact.z) = select(acts, f.z_rate, free_rate);
+  s.relaxation = select(acts, f.relaxation, Real(0.0));
   return f.mu * s.normal;
 }
 
@@ -64,19 +74,22 @@ template <class M, class C, class I, class Real>
   s.eccentricity = Real(-1.0) * k.x;
   s.depth = k.depth;
   s.rate = k.rate;
-  s.speed = k.speed;
-  s.normal = s.elastic = s.friction = Real(0.0);
+  s.speed = structure.points == ContactPoints::one
+                ? k.speed
+                : madd(k.depth, dot(j.omega_journal, j.a), k.speed);
+  s.normal = s.elastic = s.friction = s.relaxation = Real(0.0);
+  s.approach = approach_speed(structure.approach, memory, k.depth, k.rate);
   const auto acts = k.depth > memory.least_depth;
   if (any(acts)) {
     const Real depth = select(acts, k.depth, Real(0.0));
     const ContactForce<Real> f = normal_contact_force(n.contact, structure.hertz, depth, k.rate,
-                                                      approach_speed(memory, k.depth, k.rate));
+                                                      s.approach, structure.approach);
     s.normal = select(acts, f.normal, Real(0.0));
     s.elastic = select(acts, f.elastic, Real(0.0));
   }
   s.friction = contact_friction(structure, contact, n, acts, s, w);
   if (!any(acts)) return;
-  add_contact_wrench(k, j.a, Real(structure.bearing_first ? -1.0 : 1.0), s, x);
+  add_contact_wrench(structure, k, j.a, s, x);
   w.dissipated_power =
       w.dissipated_power + madd(s.friction, s.speed, (s.normal - s.elastic) * s.rate);
 }
@@ -88,7 +101,7 @@ inline void add_contacts(const M& m, const Parameters<Real>& p, Workspace<Real, 
     const int index = at(m.clearances, c).closure;
     const ClosureStructure& closure = at(m.closures, index);
     ClosureState<Real>& x = at(w.closures, index);
-    x.contact_force = x.contact_moment = zero3<Real>();
+    x.contact_force = x.contact_moment = x.contact_surplus = zero3<Real>();
     for_contacts(m, c, [&](auto i) { add_contact(m, c, i, j, at(p.clearances, c), x, w); });
     subtract_contact_forces(closure, x, bodies, bodies[closure.first].wrench,
                             bodies[closure.second].wrench);

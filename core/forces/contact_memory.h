@@ -14,12 +14,21 @@ inline void hold_contacts_open(const M& m, Workspace<Real, M>& w) {
   });
 }
 
-// A contact before a run: whatever touches at its start begins there.
+// A contact before a run.
 template <class Real>
 inline ContactMemory<Real> fresh_contact() {
   ContactMemory<Real> memory;
   memory.touching = memory.approach = Real(0.0);
   return memory;
+}
+
+// After an evaluation at the start: what touches there begins there, with the rate it has.
+template <class M, class Real>
+inline void begin_contact_memory(const M& m, Workspace<Real, M>& w) {
+  for_all_contacts(m, [&](auto i) {
+    at(w.memory, i).depth = at(w.contacts, i).depth;
+    at(w.memory, i).rate = at(w.contacts, i).rate;
+  });
 }
 
 // After an evaluation at an accepted state. `steps` counts states in each contact, (contacts);
@@ -35,8 +44,7 @@ inline void update_contact_memory(const M& m, Workspace<Real, M>& w, Real* steps
     const auto touches = s.depth > memory.least_depth;
     const auto touched = memory.touching > Real(0.5);
     const auto ended = touched && !touches;
-    const Real approach = max(approach_speed(memory, s.depth, s.rate), abs(s.rate));
-    memory.approach = select(touches, approach, none);
+    memory.approach = select(touches, s.approach, none);
     log.begun = log.begun + select(touches && !touched, one, none);
     log.least_steps = select(ended, min(log.least_steps, steps[i]), log.least_steps);
     steps[i] = select(touches, select(touched, steps[i] + one, one), none);

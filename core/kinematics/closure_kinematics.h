@@ -234,7 +234,7 @@ inline void subtract_contact_forces(const ClosureStructure& c, const ClosureStat
   subtract_force(first, x.arm_1, x.contact_force);
   add_force(second, x.p1 - bodies[c.second].p, x.contact_force);
   first.moment = first.moment - x.contact_moment;
-  second.moment = second.moment + x.contact_moment;
+  second.moment = second.moment + (x.contact_moment - x.contact_surplus);
 }
 
 // Adds the closure's forces, times -1, to the wrenches that the bodies need: +f on the first body,

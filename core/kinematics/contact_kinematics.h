@@ -9,6 +9,9 @@
 // so that a normal force N works with N delta_dot exactly if it acts along n at c + X. Axes that
 // are parallel give n = u. Friction acts at the bearing's surface, K = c + r_b u, along t = a x u:
 //   v_t = t . w + (r_b - |X|) (omega_j - omega_b) . a
+// By [AugUrb18] eq. (17) the journal feels friction at its own surface, K + delta u, and slides
+// with delta omega_j . a more (ContactPoints::two). Friction then turns the two bodies together by
+// the couple delta mu N, and depends on how fast the frame of reference turns: not the default.
 #pragma once
 
 #include "core/kinematics/closure_kinematics.h"

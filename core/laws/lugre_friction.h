@@ -31,13 +31,15 @@ struct LugreParameters {
 
 template <class Real>
 struct LugreState {
-  Real mu;      // friction force / normal force, positive against positive v
-  Real z_rate;  // m/s
+  Real mu;          // friction force / normal force, positive against positive v
+  Real z_rate;      // m/s
+  Real relaxation;  // sigma0 |v| / g, 1/s
 };
 
 template <class Real>
 struct LugrePlaneState {
   std::array<Real, 2> mu, z_rate;
+  Real relaxation;
 };
 
 // exp(-(speed / width)^2)
@@ -66,7 +68,7 @@ template <class Real>
 inline LugreState<Real> lugre_component(const LugreParameters<Real>& p, Real relaxation,
                                         Real damping, Real z, Real v) {
   const Real z_rate = nmadd(relaxation, z, v);
-  return {madd(p.sigma0, z, madd(damping, z_rate, p.sigma2 * v)), z_rate};
+  return {madd(p.sigma0, z, madd(damping, z_rate, p.sigma2 * v)), z_rate, relaxation};
 }
 
 template <class Real>
@@ -85,7 +87,7 @@ inline LugrePlaneState<Real> lugre_friction(const LugreParameters<Real>& p,
   const Real damping = lugre_damping(p, speed);
   const LugreState<Real> x = lugre_component(p, relaxation, damping, z[0], v[0]);
   const LugreState<Real> y = lugre_component(p, relaxation, damping, z[1], v[1]);
-  return {{x.mu, y.mu}, {x.z_rate, y.z_rate}};
+  return {{x.mu, y.mu}, {x.z_rate, y.z_rate}, relaxation};
 }
 
 }  // namespace linkstudy

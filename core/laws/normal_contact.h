@@ -10,9 +10,9 @@
 //   and speed: with x = rate / v0 the equation of motion separates into x dx / (1 + D x) = -dE / (m
 //   v0^2) and elastic work is the same both ways, so
 //     D - ln(1 + D) = -D e* - ln(1 - D e*).
-// The factor divides by max(v0, |rate|, least_speed): a slow start (a body at rest laid on another,
-// a speed of approach not yet known) cannot make the loss unbounded, and in a free impact, where
-// |rate| never exceeds v0, nothing changes.
+// The factor divides by max(v0, least_speed), so that a body at rest laid on another feels a finite
+// force. With ApproachSpeed::greatest it divides by max(v0, |rate|, least_speed): then f <= (1 + D)
+// K delta^n, and no law pulls. In a free impact, where |rate| never exceeds v0, both are the same.
 #pragma once
 
 #include "core/base/elementary.h"
@@ -50,13 +50,20 @@ struct ContactForce {
   Real elastic;  // K delta^n, N
 };
 
+// v0 of a contact whose approach was `approach`.
+template <class Real>
+inline Real dividing_speed(ApproachSpeed which, Real approach, Real rate) {
+  return which == ApproachSpeed::greatest ? max(approach, abs(rate)) : approach;
+}
+
 // hertz: the exponent is 3/2, by a root instead of logarithms. No force at depths below 0.
 template <class Real>
 inline ContactForce<Real> normal_contact_force(const NormalContact<Real>& c, bool hertz, Real depth,
-                                               Real rate, Real approach) {
+                                               Real rate, Real approach,
+                                               ApproachSpeed which = ApproachSpeed::begin) {
   const Real delta = max(depth, Real(0.0));
   const Real elastic = c.stiffness * (hertz ? delta * sqrt(delta) : power(delta, c.exponent));
-  const Real speed = max(max(approach, abs(rate)), c.least_speed);
+  const Real speed = max(dividing_speed(which, approach, rate), c.least_speed);
   const Real factor = max(madd(c.damping, rate / speed, Real(1.0)), Real(0.0));
   return {elastic * factor, elastic};
 }

@@ -321,8 +321,8 @@ class Compiler {
     for (double side : spatial ? std::vector{-0.5, 0.5} : std::vector{0.0}) {
       m.contacts.push_back({index, side, c.friction ? add_bristles(1) : -1});
     }
-    m.clearances.push_back({closure, c.bearing_is_first, c.exponent == 1.5, c.free_bristle, first,
-                            static_cast<int>(m.contacts.size())});
+    m.clearances.push_back({closure, c.bearing_is_first, c.exponent == 1.5, c.approach, c.points,
+                            c.free_bristle, first, static_cast<int>(m.contacts.size())});
     const double stiffness = contact_stiffness(c) * (spatial ? 0.5 : 1.0);
     const Friction friction = c.friction.value_or(Friction{});
     const double relaxation = c.friction && c.free_bristle == FreeBristle::relax

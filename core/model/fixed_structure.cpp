@@ -71,6 +71,8 @@ class Writer {
   void write(CourseShape x) { enumerator("CourseShape", x); }
   void write(ResistanceShape x) { enumerator("ResistanceShape", x); }
   void write(FreeBristle x) { enumerator("FreeBristle", x); }
+  void write(ApproachSpeed x) { enumerator("ApproachSpeed", x); }
+  void write(ContactPoints x) { enumerator("ContactPoints", x); }
   template <class T>
   void write(const std::array<T, 3>& a) {
     out_ << "{";
@@ -97,7 +99,8 @@ class Writer {
 
   void write(const JointSpring& s) { braced(s.q, s.v); }
   void write(const ClearanceStructure& c) {
-    braced(c.closure, c.bearing_first, c.hertz, c.free_bristle, c.contact_begin, c.contact_end);
+    braced(c.closure, c.bearing_first, c.hertz, c.approach, c.points, c.free_bristle,
+           c.contact_begin, c.contact_end);
   }
   void write(const ContactStructure& c) { braced(c.clearance, c.side, c.z); }
   void write(const JointFrictionStructure& f) { braced(f.body, f.turn, f.slide, f.z); }

@@ -112,6 +112,8 @@ struct ClearanceStructure {
   int closure;
   bool bearing_first;
   bool hertz;  // exponent 3/2
+  ApproachSpeed approach = ApproachSpeed::begin;
+  ContactPoints points = ContactPoints::one;
   FreeBristle free_bristle = FreeBristle::reset;
   int contact_begin, contact_end;  // planar 1, spatial 2
 };

@@ -24,8 +24,8 @@ auto key(const JointSpring& s) {
   return std::tuple(s.q, s.v);
 }
 auto key(const ClearanceStructure& c) {
-  return std::tuple(c.closure, c.bearing_first, c.hertz, c.free_bristle, c.contact_begin,
-                    c.contact_end);
+  return std::tuple(c.closure, c.bearing_first, c.hertz, c.approach, c.points, c.free_bristle,
+                    c.contact_begin, c.contact_end);
 }
 auto key(const ContactStructure& c) {
   return std::tuple(c.clearance, c.side, c.z);

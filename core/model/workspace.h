@@ -43,6 +43,8 @@ struct ClosureState {
   // Forces of the contacts of a clearance on chain 1, and their moment about p1.
   Vec3<Real> contact_force;
   Vec3<Real> contact_moment;
+  // Couple on the second body by which it feels more than the opposite of these.
+  Vec3<Real> contact_surplus;
 };
 
 // One place where a journal can touch its bearing.
@@ -51,8 +53,10 @@ struct ContactState {
   Vec3<Real> eccentricity;  // from the journal's axis to the bearing's, across the latter, m
   Real depth, rate;         // penetration (negative: gap left), m, and its rate, m/s
   Real normal, elastic;     // normal force and its elastic part, N
-  Real speed;               // of the journal's surface along a x u at the contact, m/s
+  Real speed;               // of the journal against the bearing along a x u, m/s
   Real friction;            // against this speed, N
+  Real approach;            // speed at which this contact began, m/s
+  Real relaxation;          // of the bristle, 1/s; 0 where it does not touch
 };
 
 // What a contact remembers of the accepted states; constant during a step. As made here it is a
@@ -72,6 +76,7 @@ struct JointFrictionState {
   Real load;               // N
   Real mu_turn, mu_slide;  // along the sliding velocity
   Real on_turn, on_slide;  // N m, N: against the motion
+  Real relaxation;         // of its bristles, 1/s
   // Scratch of the search for loads: gaps to what the reactions ask for, last change, products.
   Real gap, next_gap, change, missed, row;
 };

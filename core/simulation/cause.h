@@ -20,10 +20,11 @@ enum class Cause : std::uint8_t {
   cancelled,
   exception,
   rank_lost,
-  invalid_point
+  invalid_point,
+  step_too_coarse
 };
 
-inline constexpr std::array<std::string_view, 13> kCauseNames = {"ok",
+inline constexpr std::array<std::string_view, 14> kCauseNames = {"ok",
                                                                  "diverged",
                                                                  "energy_blowup",
                                                                  "step_budget",
@@ -35,7 +36,8 @@ inline constexpr std::array<std::string_view, 13> kCauseNames = {"ok",
                                                                  "cancelled",
                                                                  "exception",
                                                                  "rank_lost",
-                                                                 "invalid_point"};
+                                                                 "invalid_point",
+                                                                 "step_too_coarse"};
 
 constexpr std::string_view name_of(Cause cause) {
   return kCauseNames[static_cast<std::size_t>(cause)];

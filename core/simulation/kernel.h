@@ -23,6 +23,8 @@ struct LaneEnd {
   double energy_scale = 0.0;
   double contacts = 0.0;                    // begun
   double least_contact_steps = kNoContact;  // steps in the shortest contact that has ended
+  double bristle_rate = 0.0;                // fastest relaxation of a bristle, 1/s
+  double bristle_time = 0.0;                // and when, s
 };
 
 struct LaneCase {
@@ -32,6 +34,7 @@ struct LaneCase {
   Observers* observers;  // sized; of the same form in all lanes
   std::size_t* samples;  // (series) rows written
   LaneEnd* end;
+  double* looks = nullptr;  // rows of core/simulation/looks.h, or none
 };
 
 struct KernelRun {

@@ -203,10 +203,13 @@ class LocatedRun {
     begin_.swap(end_);
     for (std::size_t i = 0; i < phases_.size(); ++i) {
       phases_[i].fresh = false;
+      if (!phases_[i].touching) continue;
       ContactMemory<double>& memory = w_.memory[i];
-      // The force at this state is the same before and after: it takes the larger speed anyway.
-      if (phases_[i].touching)
-        memory.approach = std::max(memory.approach, std::fabs(begin_[i].rate));
+      const auto clearance = static_cast<std::size_t>(m_.contacts[i].clearance);
+      // The force at this state is the same before and after: its law takes the larger speed
+      // anyway.
+      memory.approach =
+          dividing_speed(m_.clearances[clearance].approach, memory.approach, begin_[i].rate);
     }
   }
 

@@ -5,9 +5,9 @@
 //
 // Between two events each contact keeps to its phase: one that is open has no force even where
 // rounding puts it inside, one that touches has the approach speed of its beginning, raised where
-// it is driven faster later. At an event the integrator starts anew: in contact with the first
-// step that the last contact began with, out of contact with the steps from before it. Bristles
-// that start afresh are set to zero when their contact ends.
+// it is driven faster later if ApproachSpeed::greatest is asked for. At an event the integrator
+// starts anew: in contact with the first step that the last contact began with, out of contact with
+// the steps from before it. Bristles that start afresh are set to zero when their contact ends.
 //
 // More than kMostContacts contacts begun within one output interval end the run (contact_budget):
 // bounces whose times have a limit would otherwise never reach it.

@@ -11,6 +11,7 @@
 #include "core/simulation/pack_parameters.h"
 #include "core/simulation/run_checks.h"
 #include "core/simulation/run_state.h"
+#include "core/simulation/step_watch.h"
 
 namespace linkstudy {
 
@@ -33,7 +34,8 @@ class Run {
         w_(make_workspace<Real>(m)),
         rk_(static_cast<std::size_t>(size_)),
         now_(m_, p_, w_),
-        checks_(m_, p_) {
+        checks_(m_, p_),
+        watch_(m_, p_, cases, count, setting.count) {
     if constexpr (!FixedStructure<M>) {
       y_.resize(static_cast<std::size_t>(size_));
       correction_.resize(static_cast<std::size_t>(m.nv));
@@ -46,12 +48,17 @@ class Run {
     const FlushDenormals flush;
     for (step_ = 0;; ++step_) {
       const double t = time();
+      if (step_ == 0 && contact_count(m_) > 0) {
+        differentiate_kept(t);
+        begin_contact_memory(m_, w_);
+      }
       differentiate_kept(t);
       now_.move_to(t, y_.data());
       if (step_ == 0) checks_.start_ledger(now_);
       check_state();
       if (step_ % setting_.energy_stride == 0) check_energy();
       if (active_ == 0) return;
+      watch_.see(step_, t, y_.data(), w_, active_);
       observers_.observe(step_, now_);
       if (step_ == setting_.count) break;
       if (step_ % kStepsBetweenPolls == 0 && interrupted(t)) return;
@@ -103,6 +110,8 @@ class Run {
     if constexpr (FixedStructure<M>) abandon_lanes(active_ & redundant_);
     end_lanes(active_ & ~lane_bits(moving), Cause::diverged);
     end_lanes(active_ & ~lane_bits(closed), Cause::constraint_drift);
+    // Bristles bent beyond their law jam joints, too.
+    end_lanes(active_ & ~lane_bits(watch_.bristles_hold(bristles())), Cause::step_too_coarse);
     end_lanes(active_ & w_.jammed, Cause::diverged);
   }
 
@@ -134,6 +143,7 @@ class Run {
     LaneEnd& end = *cases_[i].end;
     end.cause = cause;
     checks_.store(i, cut_row_count(m_), end);
+    watch_.store(i, end);
     end.steps = step_;
     end.contacts = lane(contact_log_.begun, i);
     end.least_contact_steps = lane(contact_log_.least_steps, i);
@@ -186,6 +196,7 @@ class Run {
   RungeKutta<ClassicalRungeKutta, Real, N::size> rk_;
   Instant<Real, M> now_;
   RunChecks<Real> checks_;
+  StepWatch<Real, M> watch_;
 };
 
 }  // namespace linkstudy

@@ -3,14 +3,19 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 #include "core/simulation/kernels.h"
 #include "core/simulation/located_run.h"
+#include "core/simulation/looks.h"
 
 namespace linkstudy {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+constexpr double kOpenLedger = 1e-2;        // of the energies in it
+constexpr double kRoundingOfEnergy = 1e-9;  // J, of a linkage at rest
 
 // What ends a run from outside.
 struct Watch {
@@ -43,6 +48,8 @@ std::string describe_end(Cause cause, double t) {
     case Cause::contact_budget:
       return "more than " + std::to_string(kMostContacts) +
              " contacts began within one output interval" + at;
+    case Cause::step_too_coarse:
+      return "bristles of friction left their law" + at;
     case Cause::timeout:
       return "wall time of the run used up";
     case Cause::cancelled:
@@ -67,7 +74,12 @@ void size_observers(Observers& all) {
 class Packed {
  public:
   Packed(const Mechanism& m, std::span<BatchCase> cases)
-      : m_(m), cases_(cases), ends_(cases.size()), samples_(cases.size()) {
+      : m_(m),
+        cases_(cases),
+        ends_(cases.size()),
+        samples_(cases.size()),
+        looks_(cases.size(), std::vector(static_cast<std::size_t>(look_count(m) * look_size(m)),
+                                         std::numeric_limits<double>::quiet_NaN())) {
     for (std::size_t i = 0; i < cases.size(); ++i) add(i);
   }
 
@@ -78,6 +90,7 @@ class Packed {
       const long steps = ends_[i].steps;
       const double reached = setting.t0 + static_cast<double>(steps) * setting.h;
       store(i, {reached, steps, 0, kStepEvaluations * steps, 0});
+      judge_step(i, setting.h);
     }
   }
 
@@ -109,14 +122,33 @@ class Packed {
     y.push_back(c.start->supplied);
     y.push_back(c.start->dissipated);
     auto& final_y = finals_.emplace_back(y.size());
-    lanes_.push_back(
-        {c.parameters, y.data(), final_y.data(), c.observers, samples_[i].data(), &ends_[i]});
+    lanes_.push_back({c.parameters, y.data(), final_y.data(), c.observers, samples_[i].data(),
+                      &ends_[i], looks_[i].data()});
+  }
+
+  // What the limit along the run makes of its end.
+  void judge_step(std::size_t i, double h) {
+    BatchCase& c = cases_[i];
+    SimulationOutcome& o = c.outcome;
+    if (ends_[i].abandoned) return;
+    o.step_limit = find_step_limit(m_, *c.parameters, looks_[i], !c.known_along, ends_[i], c.known);
+    const bool is_past = h > o.step_limit.seconds;
+    const std::string past = is_past ? describe_past_limit(h, o.step_limit) : "";
+    if (o.cause == Cause::step_too_coarse) {
+      o.message += is_past ? "; " + past : "";
+    } else if (o.cause == Cause::ok && is_past && !energy_balances(o)) {
+      o.cause = Cause::step_too_coarse;
+      o.message = "energy does not balance within 1 %; " + past;
+    } else if (o.cause == Cause::ok && is_past && !(h > c.known.seconds)) {
+      o.warning = past + "; its energy and friction balance";
+    }
   }
 
   void store(std::size_t i, const LocatedReport& report) {
     const LaneEnd& end = ends_[i];
     SimulationOutcome& o = cases_[i].outcome;
     o = {};
+    o.step_limit = cases_[i].known;
     o.cause = end.cause;
     o.steps = report.steps;
     o.rejected = report.rejected;
@@ -150,6 +182,7 @@ class Packed {
   std::span<BatchCase> cases_;
   std::vector<LaneEnd> ends_;
   std::vector<std::vector<std::size_t>> samples_;
+  std::vector<std::vector<double>> looks_;
   std::vector<std::vector<double>> starts_;
   std::vector<std::vector<double>> finals_;
   std::vector<LaneCase> lanes_;
@@ -185,6 +218,10 @@ void run_each(const Mechanism& m, const SimulationOptions& options, std::span<Ba
 
 }  // namespace
 
+bool energy_balances(const SimulationOutcome& outcome) {
+  return outcome.energy_residual_max <= kOpenLedger * outcome.energy_scale + kRoundingOfEnergy;
+}
+
 StepGrid make_step_grid(const SimulationOptions& options) {
   const double ratio = options.end_time / options.step;
   const long count = std::max(1L, static_cast<long>(std::ceil(ratio * (1.0 - 1e-12))));
@@ -197,8 +234,8 @@ Sampling sample_output(const StepGrid& grid, double output_interval) {
 
 SimulationOutcome simulate(const Mechanism& mechanism, const Parameters<double>& parameters,
                            const State<double>& start, const SimulationOptions& options,
-                           Observers& observers, const RunLimits& limits) {
-  std::vector<BatchCase> one{{&parameters, &start, &observers, {}}};
+                           Observers& observers, const RunLimits& limits, const StepLimit& known) {
+  std::vector<BatchCase> one{{&parameters, &start, &observers, {}, known}};
   simulate_batch(mechanism, options, one, limits);
   return std::move(one.front().outcome);
 }

@@ -1,6 +1,11 @@
 // Runs from a prepared start: constant steps of the classical Runge-Kutta method, or adaptive ones
 // with contacts located (core/simulation/located_run.h); observers on the grid of steps, and a
 // typed cause at the end. A run that fails numerically is a result.
+//
+// A run of constant steps that went past the stability limit along it
+// (core/simulation/step_limit.h) is right only if it balances: one whose energy leaves a gap
+// (energy_balances), or whose bristles leave their law (core/simulation/step_watch.h), has failed
+// (step_too_coarse).
 #pragma once
 
 #include <atomic>
@@ -13,6 +18,7 @@
 #include "core/simulation/cause.h"
 #include "core/simulation/observers.h"
 #include "core/simulation/options.h"
+#include "core/simulation/step_limit.h"
 
 namespace linkstudy {
 
@@ -35,6 +41,7 @@ struct RunLimits {
 struct SimulationOutcome {
   Cause cause = Cause::ok;
   std::string message;
+  std::string warning;               // of a run that is ok, or empty
   double end_time = 0.0;             // reached, s
   long steps = 0;                    // accepted
   long rejected = 0;                 // tried again with a shorter step; adaptive, stiff
@@ -47,19 +54,26 @@ struct SimulationOutcome {
   int greatest_rank = -1;  // more than the least: a singular pose was passed, or steps are coarse
   long contacts = 0;       // of journals and bearings, begun
   long least_contact_steps = 0;  // steps in the shortest contact that has ended; 0: none
+  StepLimit step_limit;          // worst along the run; adaptive, stiff: as known before
   State<double> final_state;
 };
 
-// One run on one lane of the instruction set in use.
+// The energy ledger is closed but for 1 % of the energies in it, as far as it was looked at.
+bool energy_balances(const SimulationOutcome& outcome);
+
+// One run on one lane of the instruction set in use. known: the limit at its start.
 SimulationOutcome simulate(const Mechanism& mechanism, const Parameters<double>& parameters,
                            const State<double>& start, const SimulationOptions& options,
-                           Observers& observers, const RunLimits& limits = {});
+                           Observers& observers, const RunLimits& limits = {},
+                           const StepLimit& known = {});
 
 struct BatchCase {
   const Parameters<double>* parameters = nullptr;
   const State<double>* start = nullptr;  // t the same in all cases
   Observers* observers = nullptr;        // of the same form in all cases
   SimulationOutcome outcome;             // written
+  StepLimit known{};                     // before the run: of its start
+  bool known_along = false;              // of a whole run like this one, too
 };
 
 // Runs of one structure and one step grid, several at a time in the lanes of a pack, in the order

@@ -165,6 +165,10 @@ enum class ClearanceKind { planar, spatial };
 // What the bristle of a contact does while there is no contact: it is zero, it relaxes by
 // z_dot = -(sigma0 / sigma1) z, or it keeps its deflection.
 enum class FreeBristle { reset, relax, hold };
+// Where friction of a contact acts on journal and bearing. one: at one point in space, on the
+// bearing's surface, equal and opposite there. two: [AugUrb18] eq. (17), each body at its own
+// surface, a penetration apart.
+enum class ContactPoints { one, two };
 
 struct Material {
   double young = 207.0e9;  // E, Pa
@@ -182,7 +186,9 @@ struct Clearance {
   double exponent = 1.5;            // n
   std::optional<double> stiffness;  // K, N/m^n; empty: from the materials and radii
   Material bearing, journal;
+  ApproachSpeed approach = ApproachSpeed::begin;
   double least_speed = 1.0e-4;  // m/s: floor of the approach speed
+  ContactPoints points = ContactPoints::one;
   FreeBristle free_bristle = FreeBristle::reset;
   std::optional<Friction> friction;
 };

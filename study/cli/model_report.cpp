@@ -74,9 +74,6 @@ std::string warning_text(const Preparation& preparation) {
 
 namespace {
 
-// A ledger this far open means steps too coarse for what happened.
-constexpr double kOpenLedger = 1e-2;
-constexpr double kRoundingOfEnergy = 1e-9;  // J, of a linkage at rest
 // Fewer equal steps in a contact do not follow its force.
 constexpr long kStepsOfContact = 20;
 
@@ -85,6 +82,11 @@ std::string contacts_text(const SimulationOutcome& outcome) {
   const long least = outcome.least_contact_steps;
   if (least > 0) text += fmt::format(", the shortest that ended took {} steps", least);
   return text;
+}
+
+std::string limit_text(const StepLimit& limit) {
+  return fmt::format("least of RK4 {:.4g} s at t = {:.4g} s, omega_max {:.6g} rad/s", limit.seconds,
+                     limit.t, limit.omega_max);
 }
 
 std::vector<std::string> outcome_notes(const SimulationOutcome& outcome,
@@ -114,7 +116,7 @@ std::vector<std::string> outcome_notes(const SimulationOutcome& outcome,
     notes.push_back(
         fmt::format("closure equations are redundant: their rank is {}", outcome.least_rank));
   }
-  if (outcome.energy_residual_max > kOpenLedger * outcome.energy_scale + kRoundingOfEnergy) {
+  if (!energy_balances(outcome)) {
     notes.push_back("energy does not balance within 1 %: the step is too long");
   }
   return notes;
@@ -134,6 +136,9 @@ std::string outcome_text(const SimulationOutcome& outcome, const SimulationOptio
         fmt::format(", {} more tried again, {} evaluations", outcome.rejected, outcome.evaluations);
   }
   text += summary_line("reached", reached);
+  if (options.integrator == Integrator::rk4) {
+    text += summary_line("limit", limit_text(outcome.step_limit));
+  }
   if (outcome.contacts > 0) text += summary_line("contacts", contacts_text(outcome));
   text += summary_line("drift_max", fmt::format("{:.4g}", outcome.drift_max));
   text += summary_line("energy", fmt::format("residual at most {:.4g} J of {:.4g} J",
@@ -150,6 +155,9 @@ std::string outcome_json(const Preparation& preparation, const SimulationOutcome
   const Cause cause = ran ? outcome->cause : preparation.cause;
   const bool is_prepared = preparation.cause == Cause::ok;
   const double nan = std::nan("");
+  const StepLimit unknown{nan, nan, nan};
+  const StepLimit limit =
+      !ran ? is_prepared ? worse({}, preparation.spectrum, 0.0) : unknown : outcome->step_limit;
   const Json json = {{"status", cause == Cause::ok ? "done" : "failed"},
                      {"cause", name_of(cause)},
                      {"message", ran ? outcome->message : preparation.message},
@@ -161,8 +169,8 @@ std::string outcome_json(const Preparation& preparation, const SimulationOutcome
                      {"least_contact_steps", ran ? outcome->least_contact_steps : 0},
                      {"drift_max", number(ran ? outcome->drift_max : nan)},
                      {"energy_residual_max", number(ran ? outcome->energy_residual_max : nan)},
-                     {"step_limit", number(is_prepared ? preparation.spectrum.step_limit : nan)},
-                     {"omega_max", number(is_prepared ? preparation.spectrum.omega_max : nan)},
+                     {"step_limit", number(limit.seconds)},
+                     {"omega_max", number(limit.omega_max)},
                      {"wall_s", wall_s}};
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

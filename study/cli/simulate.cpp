@@ -103,7 +103,8 @@ SimulationOutcome run_model(const CommandLine& line, const Preparation& preparat
   limits.timeout_s = line.timeout_s.value_or(0.0);
   limits.reached = &reached;
   const SimulationOutcome outcome =
-      simulate(model.mechanism, model.parameters, model.start, options, observers, limits);
+      simulate(model.mechanism, model.parameters, model.start, options, observers, limits,
+               worse({}, preparation.spectrum, model.start.t));
   reached = outcome.end_time;
   return outcome;
 }
@@ -135,6 +136,9 @@ int run_simulate(const CommandLine& line) {
   const SimulationOutcome outcome = run_model(line, preparation, input.options, observers);
   const double wall_s = seconds_since(begin);
   write_csv(line, observers);
+  if (!outcome.warning.empty()) {
+    fmt::print(stderr, "linkstudy: warning: {}\n", outcome.warning);
+  }
   print_text(line, outcome_text(outcome, input.options, wall_s));
   if (line.json) print_out(outcome_json(preparation, &outcome, wall_s) + "\n");
   return outcome.cause == Cause::ok ? kDone : kTooManyFailed;

@@ -59,6 +59,8 @@ void read_contact(const Tree& contact, Clearance& clearance) {
   clearance.bearing = read_material(contact, "bearing");
   clearance.journal = read_material(contact, "journal");
   clearance.least_speed = number_of(contact, "least_speed", clearance.least_speed);
+  if (word_of(contact, "approach") == "greatest") clearance.approach = ApproachSpeed::greatest;
+  if (word_of(contact, "points") == "two") clearance.points = ContactPoints::two;
   const std::string bristle = word_of(contact, "free_bristle");
   if (bristle == "relax") clearance.free_bristle = FreeBristle::relax;
   if (bristle == "hold") clearance.free_bristle = FreeBristle::hold;

@@ -99,12 +99,25 @@ void add_normal_rows(Rows& rows) {
                   .range = kPositive});
   add_material_rows(rows, c + ".bearing", "bearing");
   add_material_rows(rows, c + ".journal", "journal");
+  rows.push_back({.path = c + ".approach",
+                  .type = word,
+                  .meaning = "approach speed of the law: that at which this contact began, as "
+                             "printed, or the greatest speed of the contact so far",
+                  .standard = "\"begin\"",
+                  .words = {"begin", "greatest"}});
   rows.push_back({.path = c + ".least_speed",
                   .type = number,
                   .meaning = "floor of the approach speed",
                   .unit = "m/s",
                   .range = kPositive,
                   .standard = "1.0e-4"});
+  rows.push_back({.path = c + ".points",
+                  .type = word,
+                  .meaning = "where friction acts: on both at one point of the bearing's surface, "
+                             "or on each at its own surface, a penetration apart, as printed (the "
+                             "two forces then are a couple)",
+                  .standard = "\"one\"",
+                  .words = {"one", "two"}});
   rows.push_back({.path = c + ".free_bristle",
                   .type = word,
                   .meaning = "bristle of the friction out of contact: zero, relaxing by z' = "

@@ -253,8 +253,10 @@ std::unique_ptr<PreparedCase> Evaluator::prepare_case(std::size_t load_case, std
   }
   const StudySignals signals = require_signals(input_, preparation.model.mechanism);
   RunMetrics metrics(input_, signals, input.options, record, like);
-  return std::unique_ptr<PreparedCase>(new PreparedCase{
-      point, input.options, std::move(preparation), std::move(metrics), SimulationOutcome()});
+  const KnownLimit limit = find_known_limit(preparation, record);
+  return std::unique_ptr<PreparedCase>(new PreparedCase{point, input.options,
+                                                        std::move(preparation), std::move(metrics),
+                                                        SimulationOutcome(), limit});
 }
 
 void Evaluator::run_group(std::size_t load_case, const CaseGroup& group,
@@ -278,10 +280,8 @@ void Evaluator::run_group(std::size_t load_case, const CaseGroup& group,
 }
 
 void Evaluator::store(std::size_t load_case, const PreparedCase& item, Attempt& attempt) {
-  const ReferenceRecord* record = reference(load_case, nullptr);
   CaseResult& result = attempt.result;
-  const std::vector<double> numbers =
-      item.metrics.reduce(item.outcome, find_worst_spectrum(item.preparation, record));
+  const std::vector<double> numbers = item.metrics.reduce(item.outcome);
   result.responses.insert(result.responses.end(), numbers.begin(), numbers.end());
   std::vector<Trace> traces = item.metrics.traces();
   if (!traces.empty()) {

@@ -75,7 +75,12 @@ void run_cases(const CaseGroup& group, const RunLimits& limits) {
   std::vector<BatchCase> cases;
   for (PreparedCase* item : group) {
     const Model& model = item->preparation.model;
-    cases.push_back({&model.parameters, &model.start, &item->metrics.observers(), {}});
+    cases.push_back({&model.parameters,
+                     &model.start,
+                     &item->metrics.observers(),
+                     {},
+                     item->limit.worst,
+                     item->limit.along});
   }
   const PreparedCase& first = *group.front();
   simulate_batch(first.preparation.model.mechanism, first.options, cases, limits);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/simulation/prepare.h"
+#include "study/evaluate/reference_run.h"
 #include "study/metrics/run_metrics.h"
 
 namespace linkstudy {
@@ -16,6 +17,7 @@ struct PreparedCase {
   Preparation preparation;
   RunMetrics metrics;
   SimulationOutcome outcome;  // written by run_cases
+  KnownLimit limit{};         // of the step, before the run
 };
 
 // In the order given, each beside the first it can share a step loop with. All are of one load

@@ -87,9 +87,9 @@ ReferenceRecord run_reference(const StudyInput& input, const LoadCaseInput& load
   ReferenceRecord record;
   record.grid = make_step_grid(model.options);
   Observers observers = make_observers(signals, all, record.grid, model.options.output_interval);
-  const SimulationOutcome outcome =
-      simulate(mechanism, preparation.model.parameters, preparation.model.start, model.options,
-               observers, RunLimits{0.0, cancelled});
+  const SimulationOutcome outcome = simulate(
+      mechanism, preparation.model.parameters, preparation.model.start, model.options, observers,
+      RunLimits{0.0, cancelled}, worse({}, preparation.spectrum, preparation.model.start.t));
   if (outcome.cause != Cause::ok) fail(load_case, outcome.cause, outcome.message);
   record.joints = mechanism.joint_names;
   record.poses = to_states(observers.series.back(), mechanism);
@@ -100,17 +100,16 @@ ReferenceRecord run_reference(const StudyInput& input, const LoadCaseInput& load
   return record;
 }
 
-Spectrum find_worst_spectrum(const Preparation& preparation, const ReferenceRecord* reference) {
-  Spectrum worst = preparation.spectrum;
+KnownLimit find_known_limit(const Preparation& preparation, const ReferenceRecord* reference) {
   const Model& model = preparation.model;
-  if (reference == nullptr || reference->joints != model.mechanism.joint_names) return worst;
+  KnownLimit known{worse({}, preparation.spectrum, model.start.t)};
+  if (reference == nullptr || reference->joints != model.mechanism.joint_names) return known;
   for (const State<double>& pose : reference->poses) {
     if (pose.q.size() != model.start.q.size() || pose.v.size() != model.start.v.size()) break;
-    const Spectrum spectrum = compute_spectrum(model, pose);
-    worst.omega_max = std::max(worst.omega_max, spectrum.omega_max);
-    worst.step_limit = std::min(worst.step_limit, spectrum.step_limit);
+    known.worst = worse(known.worst, compute_spectrum(model, pose), pose.t);
+    known.along = true;
   }
-  return worst;
+  return known;
 }
 
 }  // namespace linkstudy

@@ -28,8 +28,12 @@ inline constexpr long kReferencePoses = 8;
 ReferenceRecord run_reference(const StudyInput& input, const LoadCaseInput& load_case,
                               const std::atomic<bool>* cancelled);
 
-// Spectrum of a prepared case: the highest eigenfrequency and the smallest step limit of its start
-// and of the reference's poses, as far as both have the same joints. Eigenvalues are the start's.
-Spectrum find_worst_spectrum(const Preparation& preparation, const ReferenceRecord* reference);
+// Highest eigenfrequency and smallest step limit of a prepared case at its start and at the
+// reference's poses, as far as both have the same joints; along: whether they have.
+struct KnownLimit {
+  StepLimit worst;
+  bool along = false;
+};
+KnownLimit find_known_limit(const Preparation& preparation, const ReferenceRecord* reference);
 
 }  // namespace linkstudy

@@ -123,8 +123,7 @@ double RunMetrics::find_gap() const {
   return gap;
 }
 
-std::vector<double> RunMetrics::reduce(const SimulationOutcome& outcome,
-                                       const Spectrum& spectrum) const {
+std::vector<double> RunMetrics::reduce(const SimulationOutcome& outcome) const {
   const bool is_ok = outcome.cause == Cause::ok;
   std::vector<double> numbers;
   for (std::size_t i = 0; i < compared_->matches.size(); ++i) {
@@ -138,9 +137,9 @@ std::vector<double> RunMetrics::reduce(const SimulationOutcome& outcome,
   numbers.push_back(outcome.drift_max);
   numbers.push_back(outcome.energy_residual_max);
   if (!is_ok) std::ranges::fill(numbers, kNan);
-  numbers.push_back(spectrum.omega_max);
-  numbers.push_back(spectrum.step_limit);
-  numbers.push_back(grid_.h * spectrum.omega_max);
+  numbers.push_back(outcome.step_limit.omega_max);
+  numbers.push_back(outcome.step_limit.seconds);
+  numbers.push_back(grid_.h * outcome.step_limit.omega_max);
   numbers.push_back(static_cast<double>(outcome.steps));
   numbers.push_back(outcome.end_time);
   numbers.push_back(static_cast<double>(outcome.contacts));

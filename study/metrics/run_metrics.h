@@ -5,7 +5,6 @@
 #include <memory>
 #include <vector>
 
-#include "core/dynamics/spectrum.h"
 #include "study/metrics/match_error.h"
 #include "study/metrics/response_list.h"
 
@@ -23,7 +22,7 @@ class RunMetrics {
 
   // One number for each response of a load case (response_list.h). Of a run that failed only what
   // does not depend on its end is kept, the rest is NaN.
-  std::vector<double> reduce(const SimulationOutcome& outcome, const Spectrum& spectrum) const;
+  std::vector<double> reduce(const SimulationOutcome& outcome) const;
 
   // Histories asked for, time first; empty when there are none.
   std::vector<Trace> traces() const;

@@ -54,7 +54,8 @@ bool is_transient(Cause cause) {
 }
 
 bool is_instability(Cause cause) {
-  return cause == Cause::diverged || cause == Cause::energy_blowup || cause == Cause::step_budget;
+  return cause == Cause::diverged || cause == Cause::energy_blowup || cause == Cause::step_budget ||
+         cause == Cause::step_too_coarse;
 }
 
 Acceptance judge_acceptance(const Observation* base, const Observation* half,

@@ -23,7 +23,7 @@ double compute_ratio(const Answer& answer, const std::vector<MatchComponent>& co
 std::size_t find_binding(const Answer& answer, const std::vector<MatchComponent>& components);
 // timeout, cancelled, exception, rank_lost: a second try may end otherwise.
 bool is_transient(Cause cause);
-// diverged, energy_blowup, step_budget: the ends a too large step causes.
+// diverged, energy_blowup, step_budget, step_too_coarse: the ends a too large step causes.
 bool is_instability(Cause cause);
 
 // A point is accepted when it is feasible at the base step and at half of it, rejected when it

@@ -31,6 +31,7 @@ Linkage loose_pin(Random& random, bool bearing_is_first, double slider) {
   c.restitution = 0.5;
   if (random.below(2) == 0) c.stiffness = 1e8;
   if (random.below(2) == 0) c.exponent = 1.3;
+  if (random.below(2) == 0) c.points = ContactPoints::two;
   c.friction = Friction{0.2, 0.1, 0.0175, 600.0, 0.5, 0.1, random.below(2) == 0 ? 0.0 : 0.3};
   for (Joint& joint : linkage.joints) {
     const std::size_t n = joint.position.size();

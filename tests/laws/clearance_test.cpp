@@ -233,8 +233,11 @@ TEST(Clearance, Forces_of_skewed_contacts_are_the_gradient_of_their_energy) {
 }
 
 // Two free bodies, one with the journal and one with the bearing, far from parallel and spinning.
-TEST(Clearance, Contacts_with_friction_keep_the_momentum_of_two_free_bodies) {
-  for (const bool bearing_is_first : {false, true}) {
+// With friction at two points, as printed, the two forces are a couple that nothing answers.
+TEST(Clearance, Contacts_with_friction_at_one_point_keep_the_momentum_of_two_free_bodies) {
+  for (const auto& [bearing_is_first, points] :
+       {std::pair(false, ContactPoints::one), std::pair(true, ContactPoints::one),
+        std::pair(false, ContactPoints::two), std::pair(true, ContactPoints::two)}) {
     JournalInBearing j;
     j.kind = ClearanceKind::spatial;
     j.velocity = {0.4, 0.3, 0.0};
@@ -242,6 +245,7 @@ TEST(Clearance, Contacts_with_friction_keep_the_momentum_of_two_free_bodies) {
     Clearance c = loose_bearing();
     c.friction = table_1_friction();
     c.bearing_is_first = bearing_is_first;
+    c.points = points;
     Linkage linkage = journal_in_bearing(j, c);
     linkage.links.push_back(
         {"housing", 2.0, Vector3d::Zero(), Vector3d(4e-3, 3e-3, 5e-3).asDiagonal(), {}});
@@ -273,32 +277,48 @@ TEST(Clearance, Contacts_with_friction_keep_the_momentum_of_two_free_bodies) {
     EXPECT_GT(end.contacts, 3);
     const auto change = (momentum(end.final_state) - momentum(start)).eval();
     EXPECT_LT(change.head<3>().norm(), 1e-10);
-    EXPECT_LT(change.tail<3>().norm(), 1e-10) << "what the contacts turn, they turn in pairs";
+    EXPECT_LT(end.energy_residual_max, 1e-4 * end.energy_scale);
+    if (points == ContactPoints::one) {
+      EXPECT_LT(change.tail<3>().norm(), 1e-10) << "what the contacts turn, they turn in pairs";
+    } else {
+      EXPECT_GT(change.tail<3>().norm(), 1e-6);
+    }
   }
 }
 
 // A heavy journal turns in its bearing: it rests where the wall is inclined by the angle of
-// friction, and its spin is braked by mu N r.
+// friction, and its spin is braked by mu N r. It swings about that place, by A = 0.14 or 0.25 as
+// its contact settles, which lifts the mean of N by A^2 / 4: m v^2 / r is A^2 / 2, cosines lose A^2
+// / 4.
 TEST(Clearance, Friction_brakes_a_journal_that_turns_under_its_weight) {
-  Clearance c = loose_bearing();
-  c.friction = table_1_friction();
-  c.restitution = 0.3;
-  JournalInBearing j;
-  j.moments = {2e-3, 2e-3, 1e-3};
-  const double phi = std::atan(0.1);
-  j.position = {-1e-3 * std::sin(phi), -1e-3 * std::cos(phi), 0.0};
-  j.turning.z() = 200.0;
-  Linkage linkage = journal_in_bearing(j, c);
-  linkage.gravity = {0.0, -9.81, 0.0};
-  const Samples samples = run(compile(linkage), steps_of(5e-6, 0.8, 1e-3),
-                              {"joint.F.v.5", "joint.F.q.0", "joint.F.q.1"});
-  ASSERT_EQ(samples.outcome.cause, Cause::ok) << samples.outcome.message;
-  // Reaction through the weight at the angle of friction, N = m g cos(phi), at the radius of the
-  // journal, 4 mm. It swings about that place, which lifts the mean of N a little.
-  const double braking = 0.1 * 9.81 * std::cos(phi) * 4e-3 / 1e-3;  // rad/s^2
-  EXPECT_NEAR((samples.values(200, 0) - samples.values(800, 0)) / 0.6, braking, 1e-2 * braking);
-  const Vector mean = samples.values.bottomRows(600).colwise().mean();
-  EXPECT_NEAR(mean[1] / mean[2], std::tan(phi), 0.05 * std::tan(phi));
+  for (const ApproachSpeed approach : {ApproachSpeed::begin, ApproachSpeed::greatest}) {
+    Clearance c = loose_bearing();
+    c.friction = table_1_friction();
+    c.restitution = 0.3;
+    c.approach = approach;
+    JournalInBearing j;
+    j.moments = {2e-3, 2e-3, 1e-3};
+    const double phi = std::atan(0.1);
+    j.position = {-1e-3 * std::sin(phi), -1e-3 * std::cos(phi), 0.0};
+    j.turning.z() = 200.0;
+    Linkage linkage = journal_in_bearing(j, c);
+    linkage.gravity = {0.0, -9.81, 0.0};
+    const Samples samples = run(compile(linkage), steps_of(5e-6, 0.8, 1e-3),
+                                {"joint.F.v.5", "joint.F.q.0", "joint.F.q.1"});
+    ASSERT_EQ(samples.outcome.cause, Cause::ok) << samples.outcome.message;
+    // Reaction through the weight at the angle of friction, N = m g cos(phi), at the radius of the
+    // journal, 4 mm.
+    const double braking = 0.1 * 9.81 * std::cos(phi) * 4e-3 / 1e-3;  // rad/s^2
+    const double found = (samples.values(200, 0) - samples.values(800, 0)) / 0.6;
+    const Vector angle =
+        (samples.values.col(1).array() / samples.values.col(2).array()).atan().tail(600);
+    const double swing = 0.5 * (angle.maxCoeff() - angle.minCoeff());
+    EXPECT_NEAR(found / braking, 1.0 + 0.25 * swing * swing, 3e-3);
+    if (approach == ApproachSpeed::begin) continue;
+    EXPECT_NEAR(found, braking, 1e-2 * braking);
+    const Vector mean = samples.values.bottomRows(600).colwise().mean();
+    EXPECT_NEAR(mean[1] / mean[2], std::tan(phi), 0.05 * std::tan(phi));
+  }
 }
 
 }  // namespace linkstudy::testing

@@ -78,7 +78,7 @@ PinSamples run_pin(const Rsup& options, const SimulationOptions& simulation) {
 }
 
 // The journal is where the links have it, and nothing pushes it that it does not touch.
-void expect_journal_inside(const PinSamples& pin) {
+void expect_journal_inside(const PinSamples& pin, ApproachSpeed approach) {
   const double k = steel_stiffness() / pin.contacts;
   const double damping = contact_damping(ContactLaw::lankarani_nikravesh, 0.9);
   for (Index row = 0; row < pin.rows(); ++row) {
@@ -89,8 +89,13 @@ void expect_journal_inside(const PinSamples& pin) {
       const double depth = pin.penetration(row, c);
       ASSERT_NEAR(depth, std::max(distance - kRadial, 0.0), 1e-13) << row;
       const double elastic = k * std::pow(depth, 1.5);
-      ASSERT_GE(pin.normal(row, c), (1.0 - damping) * elastic * (1.0 - 1e-9)) << row;
-      ASSERT_LE(pin.normal(row, c), (1.0 + damping) * elastic * (1.0 + 1e-9)) << row;
+      // A contact that is no faster than the speed its law divides by loses so much at most.
+      const bool bounded = approach == ApproachSpeed::greatest;
+      ASSERT_GE(pin.normal(row, c), bounded ? (1.0 - damping) * elastic * (1.0 - 1e-9) : 0.0)
+          << row;
+      if (bounded || depth == 0.0) {
+        ASSERT_LE(pin.normal(row, c), (1.0 + damping) * elastic * (1.0 + 1e-9)) << row;
+      }
       out = std::max(out, depth);
     }
     ASSERT_LE(pin.off_axis(row, 0.0), kRadial + out + 1e-15) << row;
@@ -145,12 +150,15 @@ TEST(Rsup, With_clearance_going_to_zero_its_motion_goes_to_that_of_the_ideal_joi
 TEST(Rsup, Its_journal_never_leaves_the_bearing_beyond_its_penetration) {
   for (const ClearanceKind kind : {ClearanceKind::planar, ClearanceKind::spatial}) {
     for (const double at_speed : {9.0, kFast}) {
-      const PinSamples pin =
-          run_pin({.clearance = kind, .at_speed = at_speed}, located(1e-7, 2.0, 1e-4));
-      ASSERT_EQ(pin.samples.outcome.cause, Cause::ok) << pin.samples.outcome.message;
-      expect_journal_inside(pin);
-      EXPECT_GT(pin.deepest(), 1e-3 * kRadial);
-      EXPECT_LT(pin.deepest(), (at_speed == kFast ? 0.1 : 0.05) * kRadial);
+      for (const ApproachSpeed approach : {ApproachSpeed::begin, ApproachSpeed::greatest}) {
+        const PinSamples pin =
+            run_pin({.clearance = kind, .at_speed = at_speed, .approach = approach},
+                    located(1e-7, 2.0, 1e-4));
+        ASSERT_EQ(pin.samples.outcome.cause, Cause::ok) << pin.samples.outcome.message;
+        expect_journal_inside(pin, approach);
+        EXPECT_GT(pin.deepest(), 1e-3 * kRadial);
+        EXPECT_LT(pin.deepest(), (at_speed == kFast ? 0.1 : 0.05) * kRadial);
+      }
     }
   }
 }

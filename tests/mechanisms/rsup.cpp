@@ -15,6 +15,7 @@ Clearance loose_pin(const Rsup& options) {
   c.bearing_radius = 5e-3;
   c.length = 20e-3;
   c.restitution = 0.9;
+  c.approach = options.approach;
   if (options.friction) c.friction = table_1_friction();
   return c;
 }

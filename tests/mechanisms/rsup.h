@@ -19,6 +19,7 @@ struct Rsup {
   bool friction = true;                      // in the clearance
   int segments = 0;                          // of the coupler; 0: rigid
   double at_speed = 9.0;                     // rad/s
+  ApproachSpeed approach = ApproachSpeed::begin;
 };
 
 // The flexible coupler: along y of the link frame, from its origin.

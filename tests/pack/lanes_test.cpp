@@ -79,6 +79,10 @@ void run_cases(std::vector<Case>& cases, const SimulationOptions& options, SimdL
                  {b.outcome.drift_max, b.outcome.energy_residual_max, b.outcome.energy_scale})) {
     return differ("drift or energy");
   }
+  const StepLimit &l = a.outcome.step_limit, &m = b.outcome.step_limit;
+  if (!same_bits({l.seconds, l.omega_max, l.t}, {m.seconds, m.omega_max, m.t})) {
+    return differ("step limit");
+  }
   if (!same_bits(a.observers.series[0].values, b.observers.series[0].values))
     return differ("series");
   const auto& r = a.observers.reductions[0];
@@ -107,6 +111,9 @@ std::vector<Linkage> loose_linkages() {
     }
     c.exponent = 1.4;
     c.stiffness = 3e6;
+    all.push_back(journal_in_bearing(j, c));
+    c.approach = ApproachSpeed::greatest;
+    c.points = ContactPoints::two;
     all.push_back(journal_in_bearing(j, c));
   }
   Linkage rubbing = rsrrp();

@@ -85,6 +85,37 @@ TEST(OracleContact, A_journal_beside_its_bearing_feels_the_forces_found_by_hand)
   EXPECT_NEAR(r.closures[0].force.z(), 2.0 * 9.81, 1e-11);  // the one force that still holds
 }
 
+// Faster than it came, 0.3 m/s after 0.1 m/s: 1000 (1 + 3 D) as printed, 1000 (1 + D) by the
+// greatest speed; away from the wall nothing pulls.
+TEST(OracleContact, A_journal_driven_faster_than_it_came_tells_the_two_approach_speeds_apart) {
+  Linkage linkage = free_journal();
+  const auto normal = [&](double approach) {
+    const TraceModel model = make_trace_model(linkage);
+    return oracle_acceleration(model, 0.0, model.q0, model.v0, {{approach, 0.0}})
+        .contacts[0]
+        .normal;
+  };
+  EXPECT_NEAR(normal(0.1), 1427.5, 1e-9);
+  linkage.closures[0].clearance.approach = ApproachSpeed::greatest;
+  EXPECT_NEAR(normal(0.1), 1142.5, 1e-9);
+  linkage.joints[0].velocity[0] = -0.3;
+  EXPECT_NEAR(normal(0.1), 857.5, 1e-9);
+  linkage.closures[0].clearance.approach = ApproachSpeed::begin;
+  EXPECT_NEAR(normal(0.1), 572.5, 1e-9);
+  EXPECT_EQ(normal(0.03), 0.0);
+}
+
+// By eq. (17) the journal is met at 5.1 mm, its own surface: it slides with 0.2 + 10 * 4e-3 m/s and
+// is braked at its own radius.
+TEST(OracleContact, With_two_points_friction_acts_on_the_journal_at_its_own_surface) {
+  Linkage linkage = free_journal();
+  linkage.closures[0].clearance.points = ContactPoints::two;
+  const TraceModel model = make_trace_model(linkage);
+  const OracleResult r = oracle_acceleration(model, 0.0, model.q0, model.v0, {{0.5, 1e-4}});
+  EXPECT_NEAR(r.contacts[0].sliding, 0.24, 1e-15);
+  EXPECT_NEAR(r.qdd[3], -r.contacts[0].friction * 4e-3 / 5e-3, 1e-9);
+}
+
 TEST(OracleContact, Apart_it_leaves_only_what_a_planar_joint_holds) {
   for (const bool bearing_is_first : {false, true}) {
     Linkage loose = loose_pin(bearing_is_first, 1e-5);

@@ -72,14 +72,16 @@ ContactResult contact_result(const TraceClosure& closure, const ClosureFrames& f
   if (!result.touches) return result;
   result.rate = e.dot(e_dot) / e.norm();
   const double elastic = stiffness_of(c) * std::pow(result.depth, c.exponent);
-  const double v0 = std::max({contact.approach, std::abs(result.rate), c.least_speed});
+  double v0 = std::max(contact.approach, c.least_speed);
+  if (c.approach == ApproachSpeed::greatest) v0 = std::max(v0, std::abs(result.rate));
   result.normal = std::max(elastic * (1.0 + loss_factor(c) * result.rate / v0), 0.0);
   result.stored = elastic * result.depth / (c.exponent + 1.0);
 
   const Eigen::Vector3d u = -e / e.norm(), t = axis.cross(u);
   result.point = centre + c.bearing_radius * u;
   const MaterialPoint on_bearing = material_point(bearing, result.point);
-  const MaterialPoint on_journal = material_point(journal, result.point);
+  const double apart = c.points == ContactPoints::two ? result.depth : 0.0;
+  const MaterialPoint on_journal = material_point(journal, result.point + apart * u);
   result.sliding = t.dot(on_journal.velocity - on_bearing.velocity);
   if (c.friction) {
     result.friction = result.normal * friction_coefficient(*c.friction, contact.bristle,

@@ -191,9 +191,19 @@ TEST(NormalContact, A_contact_never_pulls_and_apart_there_is_no_force) {
     const NormalContact<double> c = contact(1e9, 1.0 + random.below(3) * 0.5, d);
     const double depth = random.within(1e-4), rate = random.within(3.0);
     const double approach = std::max(0.0, random.within(1.0));
+    const bool hertz = c.exponent == 1.5;
     const ContactForce<double> f =
-        normal_contact_force(c, c.exponent == 1.5, depth, rate, approach);
+        normal_contact_force(c, hertz, depth, rate, approach, ApproachSpeed::greatest);
+    const ContactForce<double> printed = normal_contact_force(c, hertz, depth, rate, approach);
     ASSERT_GE(f.normal, 0.0);
+    ASSERT_GE(printed.normal, 0.0);
+    ASSERT_EQ(printed.elastic, f.elastic);
+    // Slower than it came both are the same; faster, the printed law loses more both ways.
+    if (std::fabs(rate) <= std::max(approach, c.least_speed)) {
+      ASSERT_EQ(printed.normal, f.normal);
+    } else {
+      ASSERT_GE((printed.normal - f.normal) * rate, 0.0);
+    }
     if (depth <= 0.0) {
       ASSERT_EQ(f.normal, 0.0);
     }
@@ -209,7 +219,10 @@ TEST(NormalContact, A_body_laid_down_without_speed_feels_a_finite_force) {
   EXPECT_DOUBLE_EQ(normal_contact_force(c, true, 1e-6, 0.0, 0.0).normal, 1e9 * 1e-9);
   EXPECT_DOUBLE_EQ(normal_contact_force(c, true, 1e-6, 5e-4, 0.0).normal, 1.375);
   EXPECT_DOUBLE_EQ(normal_contact_force(c, true, 1e-6, -5e-4, 0.0).normal, 0.625);
-  EXPECT_DOUBLE_EQ(normal_contact_force(c, true, 1e-6, 2.0, 0.0).normal, 1.75);
+  const auto greatest = ApproachSpeed::greatest;
+  EXPECT_DOUBLE_EQ(normal_contact_force(c, true, 1e-6, 2.0, 0.0, greatest).normal, 1.75);
+  EXPECT_DOUBLE_EQ(normal_contact_force(c, true, 1e-6, 2.0, 0.0).normal, 1501.0);
+  EXPECT_DOUBLE_EQ(normal_contact_force(c, true, 1e-6, -2.0, 0.0).normal, 0.0);
 }
 
 TEST(NormalContact, The_root_of_hertz_and_the_general_power_give_the_same_force) {

@@ -24,16 +24,16 @@ constexpr double kPi = std::numbers::pi;
 
 // The reference linkage with a revolute closure that has every table of a real joint.
 std::string real_closure() {
-  return replaced(
-      replaced(kRsrrp, "type = \"spherical\"", "type = \"revolute\""),
-      "cut.stabilization = \"none\"",
-      "clearance = { kind = \"spatial\", bearing = \"first\", radial = \"1 mm\", "
-      "bearing_radius = \"5 mm\", length = \"2 cm\" }\n"
-      "contact = { law = \"flores\", restitution = 0.5, exponent = 2.2, stiffness = "
-      "3e9, bearing = { young = \"70 GPa\", poisson = 0.33 }, least_speed = \"1 mm/s\", "
-      "free_bristle = \"relax\" }\n"
-      "friction = { mu_s = 0.2, mu_k = 0.1, stribeck_speed = \"17.5 mm/s\", sigma0 = "
-      "600, sigma1 = 24.5, sigma2 = 0.1, damping_speed = \"2 cm/s\" }");
+  return replaced(replaced(kRsrrp, "type = \"spherical\"", "type = \"revolute\""),
+                  "cut.stabilization = \"none\"",
+                  "clearance = { kind = \"spatial\", bearing = \"first\", radial = \"1 mm\", "
+                  "bearing_radius = \"5 mm\", length = \"2 cm\" }\n"
+                  "contact = { law = \"flores\", restitution = 0.5, exponent = 2.2, stiffness = "
+                  "3e9, bearing = { young = \"70 GPa\", poisson = 0.33 }, approach = \"greatest\", "
+                  "points = \"two\", least_speed = \"1 mm/s\", "
+                  "free_bristle = \"relax\" }\n"
+                  "friction = { mu_s = 0.2, mu_k = 0.1, stribeck_speed = \"17.5 mm/s\", sigma0 = "
+                  "600, sigma1 = 24.5, sigma2 = 0.1, damping_speed = \"2 cm/s\" }");
 }
 
 const char* const kCoupler = "name = \"coupler\"\nmass = 1.5\ncenter_of_mass = [0.0, 0.25, 0.0]\n";
@@ -73,6 +73,8 @@ TEST(RealJoints, A_clearance_with_its_contact_and_friction_is_read_key_by_key) {
   EXPECT_EQ(c.bearing.poisson, 0.33);
   EXPECT_EQ(c.journal.young, 207e9);
   EXPECT_EQ(c.journal.poisson, 0.3);
+  EXPECT_EQ(c.approach, ApproachSpeed::greatest);
+  EXPECT_EQ(c.points, ContactPoints::two);
   EXPECT_EQ(c.least_speed, 1e-3);
   EXPECT_EQ(c.free_bristle, FreeBristle::relax);
   ASSERT_TRUE(c.friction);
@@ -108,6 +110,8 @@ TEST(RealJoints, Defaults_of_a_contact_are_steel_and_are_written_where_there_is_
   EXPECT_EQ(c.exponent, 1.5);
   EXPECT_FALSE(c.stiffness);
   EXPECT_EQ(c.bearing.young, 207e9);
+  EXPECT_EQ(c.approach, ApproachSpeed::begin);
+  EXPECT_EQ(c.points, ContactPoints::one);
   EXPECT_EQ(c.least_speed, 1e-4);
   EXPECT_EQ(c.free_bristle, FreeBristle::reset);
   EXPECT_FALSE(c.friction);
