@@ -22,7 +22,7 @@ fi
 build=${LINKSTUDY_BUILD_DIR:-$build}
 jobs=$(nproc)
 
-jobs/install.sh
+jobs/install.sh --tests
 cmake -S . -B "$build" -G Ninja "${options[@]}"
 cmake --build "$build" -j "$jobs"
 

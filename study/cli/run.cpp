@@ -30,7 +30,7 @@ constexpr VerbEntry kVerbs[] = {{"init", run_init},         {"check", run_check}
 // Copies of a verb that works in one process: the first says so, and its exit code becomes that of
 // the launcher. The others leave without one, or the launcher might end the first before it speaks.
 bool leaves_to_first(const CommandLine& line) {
-  if (line.verb == "study" || line.verb == "tune") return false;
+  if (is_resumable({line.verb})) return false;
   const Launcher launcher = find_launcher(read_environment);
   if (launcher.size > 1 && launcher.rank > 0) return true;
   check_alone(launcher, line.verb);
@@ -51,6 +51,10 @@ int run_verb(const std::vector<std::string>& arguments) {
 }
 
 }  // namespace
+
+bool is_resumable(const std::vector<std::string>& arguments) {
+  return !arguments.empty() && (arguments.front() == "study" || arguments.front() == "tune");
+}
 
 int run_program(const std::vector<std::string>& arguments) {
   try {

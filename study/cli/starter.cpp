@@ -96,11 +96,14 @@ std::string make_batch_script(const std::string& verb, const std::string& script
   std::string text = starter_texts().batch;
   text = replace_part(text, "# usage:", "#SBATCH",
                       fmt::format("# usage: sbatch -N 2 -n 16 --time 1:00:00 {} [options of "
-                                  "linkstudy]\n#        from the folder of {}\n",
+                                  "linkstudy]\n#        from any folder; {} lies beside it\n"
+                                  "#        LINKSTUDY=path      another program\n"
+                                  "#        LINKSTUDY_LEAD=S    with another lead: sbatch "
+                                  "--signal=B:USR1@S ...\n",
                                   script, names.file));
-  text = replace_part(
-      text, "if [ $# -lt 3 ]", "\nlinkstudy=",
-      fmt::format("verb={}; file='{}'; results='{}'\n", verb, names.file, names.results));
+  text = replace_part(text, "if [ $# -lt 3 ]", "\nlinkstudy=",
+                      fmt::format("verb={}; file=$here/'{}'; results=$here/'{}'\n", verb,
+                                  names.file, names.results));
   return replace_part(text, "linkstudy=", "\n",
                       fmt::format("linkstudy=${{LINKSTUDY:-{}}}", program));
 }

@@ -11,13 +11,25 @@
 namespace linkstudy {
 namespace {
 
+// One word, for scripts.
+const char* state_of(const StudyStatus& status) {
+  if (status.running) return "running";
+  return status.is_complete ? "complete" : "interrupted";
+}
+
 std::string to_json(const StudyStatus& status) {
   nlohmann::ordered_json failed = nlohmann::ordered_json::object();
   for (const auto& [cause, count] : status.failed) failed[std::string(name_of(cause))] = count;
-  nlohmann::ordered_json json = {
-      {"total", status.total}, {"done", status.done},
-      {"failed", failed},      {"running", status.running},
-      {"eta_s", nullptr},      {"last_write_age_s", status.last_write_age_s}};
+  nlohmann::ordered_json json = {{"state", state_of(status)},
+                                 {"total", status.total},
+                                 {"done", status.done},
+                                 {"finished", status.done + status.failed_count()},
+                                 {"failed", failed},
+                                 {"references", status.references},
+                                 {"running", status.running},
+                                 {"eta_s", nullptr},
+                                 {"last_write_age_s", status.last_write_age_s},
+                                 {"digest", status.digest}};
   if (status.eta_s) json["eta_s"] = *status.eta_s;
   return json.dump() + "\n";
 }

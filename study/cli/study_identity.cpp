@@ -11,6 +11,7 @@
 #include "study/config/toml_reader.h"
 #include "study/config/toml_writer.h"
 #include "study/record/digest.h"
+#include "study/schedule/batch_job.h"
 #include "study/store/status.h"
 
 namespace linkstudy {
@@ -79,6 +80,7 @@ StudyIdentity make_identity(const CommandLine& line, const Evaluator& evaluator,
                     {"resolved", resolved_text(line, input)},
                     {"build", version_text()},
                     {"machine", machine_text(transport)}};
+  const BatchJob job = find_batch_job(read_environment);
   identity.start = {"",
                     unix_time_s(),
                     total,
@@ -88,7 +90,9 @@ StudyIdentity make_identity(const CommandLine& line, const Evaluator& evaluator,
                     git_revision(),
                     line.command,
                     std::string(name_of(simd_level().isa)),
-                    static_cast<std::uint32_t>(simd_level().lanes)};
+                    static_cast<std::uint32_t>(simd_level().lanes),
+                    job.id,
+                    job.restart};
   return identity;
 }
 

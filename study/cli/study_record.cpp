@@ -23,6 +23,14 @@ const std::filesystem::path& prepared(const std::filesystem::path& directory) {
   return directory;
 }
 
+bool was_begun_by_job(const std::filesystem::path& directory, const ProvenanceRow& now) {
+  if (now.restart == 0 || !std::filesystem::exists(directory / kJournalName)) return false;
+  const std::vector<ProvenanceRow> rows = read_journal(directory).provenance;
+  return std::ranges::any_of(rows, [&](const ProvenanceRow& row) {
+    return row.job == now.job && row.restart < now.restart;
+  });
+}
+
 TraceSet to_trace_set(const std::string& base, std::int64_t id, const CaseTraces& traces) {
   const std::string suffix = traces.load_case.empty() ? "" : "_" + traces.load_case;
   return {base + suffix, id, traces.traces};
@@ -51,8 +59,9 @@ std::string slug_of(const std::string& name) {
 StudyRecord::StudyRecord(std::filesystem::path directory, const StudyIdentity& identity, bool fresh)
     : directory_(std::move(directory)),
       is_made_(!std::filesystem::exists(directory_)),
+      keeps_own_job_(fresh && was_begun_by_job(directory_, identity.start)),
       journal_(prepared(directory_), identity.input_sha256,
-               fresh ? OpenMode::fresh : OpenMode::resume),
+               fresh && !keeps_own_job_ ? OpenMode::fresh : OpenMode::resume),
       next_write_(Clock::now() + kFirstWrite) {
   is_resumed_ = journal_.contents().description.has_value();
   if (!is_resumed_) journal_.append(identity.description);
@@ -118,6 +127,20 @@ void StudyRecord::add(Evaluation evaluation, const std::vector<CaseTraces>& trac
 void StudyRecord::add_references(const std::vector<CaseTraces>& references) {
   if (!results_.references.empty()) return;
   for (const CaseTraces& set : references) add_traces(to_trace_set("reference", -1, set));
+}
+
+void StudyRecord::add_reference(StoredReference reference) {
+  journal_.append(reference);
+  journal_.sync();
+  references_.push_back(std::move(reference));
+}
+
+const StoredReference* StudyRecord::reference(const std::string& name) const {
+  for (const auto* all : {&references_, &journal_.contents().references}) {
+    const auto found = std::ranges::find(*all, name, &StoredReference::name);
+    if (found != all->end()) return &*found;
+  }
+  return nullptr;
 }
 
 void StudyRecord::set_tuning(const std::string& name, const std::string& json, DataGroup tables) {

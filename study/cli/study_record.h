@@ -27,7 +27,8 @@ struct StudyIdentity {
 class StudyRecord {
  public:
   // Prepares the directory and opens the journal (store/directory.h, store/journal.h say what is
-  // refused).
+  // refused). `fresh` overwrites what is there; but what an earlier start of the same job of a
+  // queue left is continued: a requeued job has the same command line.
   StudyRecord(std::filesystem::path directory, const StudyIdentity& identity, bool fresh);
   // Removes a directory in which nothing was ever evaluated and that was made for this.
   void discard_if_empty();
@@ -35,6 +36,8 @@ class StudyRecord {
   const std::filesystem::path& directory() const { return directory_; }
   Journal& journal() { return journal_; }
   bool is_resumed() const { return is_resumed_; }
+  // `fresh` was asked for, and not done.
+  bool keeps_own_job() const { return keeps_own_job_; }
 
   // By id; failed ones included.
   const std::map<std::uint64_t, Evaluation>& evaluations() const { return evaluations_; }
@@ -42,7 +45,11 @@ class StudyRecord {
   std::uint64_t failure_count() const;
 
   void add(Evaluation evaluation, const std::vector<CaseTraces>& traces);
+  // Histories of the references, for the results.
   void add_references(const std::vector<CaseTraces>& references);
+  // Synced at once: it may be all that a start achieves. `name` is that of the load case.
+  void add_reference(StoredReference reference);
+  const StoredReference* reference(const std::string& name) const;
   // The object of `tune --json` and the tables of a tuning.
   void set_tuning(const std::string& name, const std::string& json, DataGroup tables);
 
@@ -61,10 +68,12 @@ class StudyRecord {
 
   std::filesystem::path directory_;
   bool is_made_ = false;  // the directory did not exist before
+  bool keeps_own_job_ = false;
   Journal journal_;
   bool is_resumed_ = false;
   StudyResults results_;  // evaluations are in evaluations_
   std::map<std::uint64_t, Evaluation> evaluations_;
+  std::vector<StoredReference> references_;  // of this start; earlier ones are in the journal
   std::chrono::steady_clock::time_point next_write_;
 };
 

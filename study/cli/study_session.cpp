@@ -4,48 +4,27 @@
 #include <spdlog/sinks/basic_file_sink.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cstdio>
-#include <future>
+#include <cstring>
 #include <limits>
 
 #include "core/base/isa.h"
 #include "study/cli/exit_code.h"
 #include "study/cli/report_error.h"
+#include "study/cli/run_deadline.h"
+#include "study/cli/run_references.h"
 #include "study/cli/study_identity.h"
 #include "study/cli/version.h"
 #include "study/evaluate/form_packs.h"
-#include "study/schedule/launcher.h"
+#include "study/schedule/batch_job.h"
 #include "study/store/directory.h"
-#include "study/store/status.h"
+#include "study/store/file.h"
 #include "study/store/store_error.h"
 
 namespace linkstudy {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using Seconds = std::chrono::duration<double>;
-
-// Time kept of the wall time for what is in flight and for writing.
-double margin_of(double walltime_s) {
-  return std::clamp(0.1 * walltime_s, 0.1, 60.0);
-}
-
-std::optional<double> slurm_walltime() {
-  const std::optional<std::string> text = read_environment("SLURM_JOB_END_TIME");
-  double end = 0.0;
-  if (!text) return std::nullopt;
-  const auto [last, error] = std::from_chars(text->data(), text->data() + text->size(), end);
-  if (error != std::errc() || last != text->data() + text->size()) return std::nullopt;
-  return std::max(0.0, end - unix_time_s());
-}
-
-std::optional<Clock::time_point> find_deadline(const CommandLine& line, Clock::time_point start) {
-  const std::optional<double> walltime = line.walltime_s ? line.walltime_s : slurm_walltime();
-  if (!walltime) return std::nullopt;
-  const Seconds left(*walltime - margin_of(*walltime));
-  return start + std::chrono::duration_cast<Clock::duration>(left);
-}
 
 // Runs a step on this rank and agrees on how it ended. What rank 0 has to say is said by it alone;
 // what went wrong on another rank only, by that one.
@@ -66,23 +45,6 @@ int pass_gate(Transport& transport, const std::function<int()>& step) {
   return agreed;
 }
 
-// References in a thread, so that a stop signal is seen while they run.
-int run_references(Evaluator& evaluator) {
-  std::atomic<bool> cancelled{false};
-  std::future<void> running =
-      std::async(std::launch::async, [&] { evaluator.run_references(&cancelled); });
-  while (running.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready) {
-    if (stop_level() > 0) cancelled = true;
-  }
-  try {
-    running.get();
-  } catch (const ReferenceFailure& failure) {
-    if (failure.cause() == Cause::cancelled) throw Interrupted();
-    throw;
-  }
-  return kDone;
-}
-
 std::shared_ptr<spdlog::logger> open_log(const CommandLine& line, const StudyRecord& record) {
   const std::string path = (record.directory() / kLogName).string();
   auto log = std::make_shared<spdlog::logger>(
@@ -90,6 +52,17 @@ std::shared_ptr<spdlog::logger> open_log(const CommandLine& line, const StudyRec
   log->set_level(spdlog::level::from_str(line.log_level));
   log->flush_on(spdlog::level::info);
   return log;
+}
+
+// "TERM"
+std::string name_of_signal(int number) {
+  const char* name = sigabbrev_np(number);
+  return name == nullptr ? "" : name;
+}
+
+// A script that passes signals on waits for this file: from now on every rank takes them.
+void mark_ready() {
+  if (const auto path = read_environment("LINKSTUDY_READY")) write_file_atomically(*path, "");
 }
 
 std::string one_line(std::string text) {
@@ -113,7 +86,7 @@ Evaluation to_evaluation(const Point& point, const CaseResult& result, int rank,
 std::vector<CaseResult> results_of(const TaskResult& task, std::size_t count) {
   if (!task.failed) return decode_results(task.bytes);
   CaseResult result;
-  result.status = Cause::exception;
+  result.status = task.lost ? Cause::rank_lost : Cause::exception;
   result.message = task.bytes;
   return std::vector<CaseResult>(count, result);
 }
@@ -139,8 +112,12 @@ std::uint64_t most_evaluations(const StudyInput& input, std::uint64_t total) {
 // The session of one process, step by step.
 class Launch {
  public:
-  Launch(const CommandLine& line, StudyKind kind, Transport& transport)
-      : line_(line), kind_(kind), transport_(transport), start_(Clock::now()) {}
+  Launch(const CommandLine& line, StudyKind kind, Transport& transport, Clock::time_point start)
+      : line_(line),
+        kind_(kind),
+        transport_(transport),
+        job_(find_batch_job(read_environment)),
+        deadline_(find_deadline(line, job_, start)) {}
 
   int run(const SessionWork& work) {
     int code = pass_gate(transport_, [this] { return read_input(); });
@@ -148,8 +125,12 @@ class Launch {
     if (code != kDone) return code;
     code = pass_gate(transport_, [this] { return open_record(); });
     if (code == kDone && wants_references()) {
-      code = pass_gate(transport_, [this] { return run_references(*evaluator_); });
+      code = pass_gate(transport_, [this] { return make_references(); });
+      // What interrupts the references keeps the pool from handing out anything: it ends as usual.
+      has_references_ = code != exit_resumable;
+      if (!has_references_) return hand_out(work);
       if (code != kDone) return leave_without_work(code);
+      share_references(*evaluator_, transport_);
     }
     return code == kDone ? hand_out(work) : code;
   }
@@ -181,6 +162,11 @@ class Launch {
         transport_.rank(), transport_.host(), own, first));
   }
 
+  int make_references() {
+    if (is_first()) run_references(*evaluator_, *record_, deadline_, *log_);
+    return kDone;
+  }
+
   int open_record() {
     if (!is_first()) return kDone;
     const StudyIdentity identity = make_identity(
@@ -189,8 +175,17 @@ class Launch {
     record_ = std::make_unique<StudyRecord>(directory, identity, line_.fresh);
     log_ = open_log(line_, *record_);
     log_->info("{} ({} ranks)", line_.command, transport_.size());
+    if (!job_.id.empty()) log_->info("{}", text_of(job_));
+    if (record_->keeps_own_job()) say_kept();
     print_banner(identity);
     return kDone;
+  }
+
+  void say_kept() {
+    const std::string text =
+        fmt::format("--fresh was for the first start of job {}; what it has done is kept", job_.id);
+    fmt::print(stderr, "linkstudy: {}\n", text);
+    log_->info("{}", text);
   }
 
   void print_banner(const StudyIdentity& identity) {
@@ -220,19 +215,38 @@ class Launch {
 
   int leave_without_work(int code) {
     if (record_) log_->error("ended before any evaluation with exit code {}", code);
-    if (record_ && code != exit_resumable) record_->discard_if_empty();
+    if (record_) record_->discard_if_empty();
     return code;
   }
 
   PoolOptions pool_options() {
     PoolOptions options;
-    options.deadline = find_deadline(line_, start_);
+    options.deadline = deadline_.begin_until;
+    options.cancel_at = deadline_.cancel_at;
+    options.cancel_work = [this] { evaluator_->cancel(); };
+    options.find_beat = [this] { return evaluator_->reached(); };
+    options.task_limit_s = evaluator_->input().run.timeout.value_or(0.0);
     if (!is_first()) return options;
-    options.on_terminate = [this] { record_->journal().sync(); };
+    options.on_lost = [this](const LostRank& lost) { say_lost(lost); };
+    options.on_terminate = [this] {
+      record_->journal().sync();
+      log_->warn("stop signal {}: {}", name_of_signal(last_stop_signal()),
+                 stop_level() >= stop_cancel ? "what is in flight is cancelled"
+                                             : "what is in flight ends, nothing more is begun");
+    };
     options.on_tick = [this] {
       if (session_) session_->tick();
     };
     return options;
+  }
+
+  void say_lost(const LostRank& lost) {
+    const std::string text =
+        fmt::format("rank {} is lost: {} for {:.0f} s; its {} tasks go elsewhere", lost.rank,
+                    lost.answers ? "it answers, but its work stands still" : "no sign of life",
+                    lost.silence_s, lost.tasks);
+    fmt::print(stderr, "linkstudy: {}\n", text);
+    log_->error("{}", text);
   }
 
   int hand_out(const SessionWork& work) {
@@ -256,7 +270,7 @@ class Launch {
   int lead(Pool& pool, const SessionWork& work) {
     int code = kInternalError;
     try {
-      record_->add_references(evaluator_->reference_traces());
+      if (has_references_) record_->add_references(evaluator_->reference_traces());
       session_ = std::make_unique<StudySession>(line_, *evaluator_, *record_, pool, *log_, total_);
       code = work(*session_);
     } catch (...) {
@@ -266,14 +280,16 @@ class Launch {
       code = failure.code;
     }
     log_->info("exit code {}", code);
-    if (session_ && session_->is_abandoned()) pool.leave_now(code);
+    if ((session_ && session_->is_abandoned()) || !pool.close()) pool.leave_now(code);
     return code;
   }
 
   const CommandLine& line_;
   StudyKind kind_;
   Transport& transport_;
-  Clock::time_point start_;
+  BatchJob job_;
+  RunDeadline deadline_;
+  bool has_references_ = true;
   std::unique_ptr<Evaluator> evaluator_;
   std::uint64_t total_ = 0;
   std::unique_ptr<StudyRecord> record_;  // rank 0
@@ -336,20 +352,31 @@ std::vector<Point> StudySession::missing_of(const std::vector<Point>& points) co
 
 void StudySession::run_packs(const std::vector<std::vector<Point>>& packs) {
   if (packs.empty()) return;
+  has_cancelled_ = false;
   std::vector<std::string> tasks;
   for (const std::vector<Point>& pack : packs) tasks.push_back(encode_points(pack));
   const RunOutcome outcome = pool_.run(
       std::move(tasks), [&](const TaskResult& task) { take_pack(packs[task.index], task); });
   record_.journal().sync();
-  abandoned_ = outcome.end == RunEnd::abandoned;
-  if (outcome.interrupted()) {
-    log_.warn("interrupted: {}", outcome.end == RunEnd::deadline ? "wall time" : "stop signal");
+  end_run(outcome);
+}
+
+void StudySession::end_run(const RunOutcome& outcome) {
+  abandoned_ = outcome.end == RunEnd::abandoned || outcome.end == RunEnd::no_rank;
+  if (outcome.end == RunEnd::no_rank) {
+    fmt::print(stderr, "linkstudy: error: no rank is left that works\n");
+  }
+  if (outcome.interrupted() || has_cancelled_) {
+    log_.warn("interrupted: {}", outcome.end == RunEnd::no_rank       ? "no rank is left"
+                                 : outcome.reason == RunEnd::deadline ? "wall time"
+                                                                      : "stop signal");
     throw Interrupted();
   }
   if (!stop_reason_.empty()) throw TooManyFailures(stop_reason_);
 }
 
-// A pack that failed as a whole is left missing, so that its points are run alone.
+// A pack that failed as a whole is left missing, so that its points are run alone; what was
+// cancelled is nobody's result and is left to the next start.
 void StudySession::take_pack(const std::vector<Point>& pack, const TaskResult& task) {
   if (task.failed && pack.size() > 1) {
     log_.warn("{} evaluations from {} on: {}", pack.size(), pack[0].id, one_line(task.bytes));
@@ -358,7 +385,11 @@ void StudySession::take_pack(const std::vector<Point>& pack, const TaskResult& t
   const std::vector<CaseResult> results = results_of(task, pack.size());
   const double seconds = task.seconds / static_cast<double>(pack.size());
   for (std::size_t i = 0; i < pack.size(); ++i) {
-    take(to_evaluation(pack[i], results.at(i), task.rank, seconds), results[i].traces);
+    if (results.at(i).status == Cause::cancelled) {
+      has_cancelled_ = true;
+    } else {
+      take(to_evaluation(pack[i], results[i], task.rank, seconds), results[i].traces);
+    }
   }
   progress_.update(record_.evaluations().size(), failures_, Clock::now());
 }
@@ -407,10 +438,11 @@ void StudySession::finish_progress() {
 }
 
 int run_session(const CommandLine& line, StudyKind kind, const SessionWork& work) {
-  const StopSignals signals;
+  const Clock::time_point start = Clock::now();
   const std::unique_ptr<Transport> transport = make_transport();
   try {
-    return Launch(line, kind, *transport).run(work);
+    if (transport->rank() == 0) mark_ready();
+    return Launch(line, kind, *transport, start).run(work);
   } catch (const std::exception& error) {
     // This rank cannot take part any more, and the others would wait for it.
     fmt::print(stderr, "linkstudy: error: rank {}: {}\n", transport->rank(), error.what());

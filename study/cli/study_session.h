@@ -9,16 +9,11 @@
 #include <memory>
 
 #include "study/cli/input.h"
+#include "study/cli/interrupted.h"
 #include "study/cli/study_record.h"
 #include "study/schedule/pool.h"
 
 namespace linkstudy {
-
-// A stop signal or the end of the wall time: everything is written, a later start continues.
-class Interrupted : public std::runtime_error {
- public:
-  Interrupted() : std::runtime_error("interrupted") {}
-};
 
 // More evaluations failed than are accepted.
 class TooManyFailures : public std::runtime_error {
@@ -44,13 +39,14 @@ class StudySession {
   // From the pool's clock.
   void tick();
   void finish_progress();
-  // After a second stop signal: tasks are still running and are not waited for.
+  // Tasks may still be running and are not waited for: cancelled in vain, or with lost ranks.
   bool is_abandoned() const { return abandoned_; }
 
  private:
   std::vector<Point> missing_of(const std::vector<Point>& points) const;
   void run_packs(const std::vector<std::vector<Point>>& packs);
   void take_pack(const std::vector<Point>& pack, const TaskResult& task);
+  void end_run(const RunOutcome& outcome);
   void take(const Evaluation& evaluation, const std::vector<CaseTraces>& traces);
   void check_failures();
 
@@ -62,6 +58,7 @@ class StudySession {
   std::uint64_t total_;  // 0 where not known beforehand
   std::uint64_t failures_ = 0;
   bool abandoned_ = false;
+  bool has_cancelled_ = false;  // of the present packs
   Progress progress_;
   std::string stop_reason_;
 };

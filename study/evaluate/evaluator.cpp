@@ -46,6 +46,9 @@ void guard(CaseResult& result, const Step& step) {
     step();
   } catch (const InvalidPoint& error) {
     fail(result, Cause::invalid_point, error.what());
+  } catch (const ReferenceFailure& error) {
+    const bool is_cancelled = error.cause() == Cause::cancelled;
+    fail(result, is_cancelled ? Cause::cancelled : Cause::exception, error.what());
   } catch (const std::exception& error) {
     fail(result, Cause::exception, error.what());
   }
@@ -152,17 +155,31 @@ double Evaluator::worst(RunNumber number, const std::vector<double>& responses) 
   return worst;
 }
 
-const ReferenceRecord* Evaluator::reference(std::size_t load_case,
-                                            const std::atomic<bool>* cancelled) {
-  if (!input_.reference) return nullptr;
-  const std::lock_guard lock(mutex_);
-  std::optional<ReferenceRecord>& record = references_[load_case];
-  if (!record) record = run_reference(input_, load_cases_[load_case], cancelled);
-  return &*record;
+const ReferenceRecord* Evaluator::reference(std::size_t load_case) {
+  return input_.reference ? &run_reference(load_case) : nullptr;
 }
 
-void Evaluator::run_references(const std::atomic<bool>* cancelled) {
-  for (std::size_t i = 0; i < load_cases_.size(); ++i) reference(i, cancelled);
+const ReferenceRecord& Evaluator::run_reference(std::size_t load_case) {
+  const std::lock_guard lock(mutex_);
+  std::optional<ReferenceRecord>& record = references_.at(load_case);
+  if (!record) {
+    record = linkstudy::run_reference(input_, load_cases_[load_case], limits_of(0.0));
+  }
+  return *record;
+}
+
+void Evaluator::run_references() {
+  for (std::size_t i = 0; i < reference_count(); ++i) run_reference(i);
+}
+
+void Evaluator::set_reference(std::size_t load_case, ReferenceRecord record) {
+  const bool fits = record.match.size() == input_.match.size() &&
+                    std::ranges::none_of(record.match, [](const Series& series) {
+                      return series.channels.empty() || series.values.empty();
+                    });
+  if (!fits) throw std::out_of_range("a reference run of another study");
+  const std::lock_guard lock(mutex_);
+  references_.at(load_case) = std::move(record);
 }
 
 std::vector<CaseTraces> Evaluator::reference_traces() const {
@@ -192,6 +209,7 @@ std::vector<CaseResult> Evaluator::evaluate(std::span<const std::vector<Value>> 
   attempt(attempts);
   for (Attempt& one : attempts) {
     for (std::uint32_t i = 2; i <= kAttempts && one.result.status == Cause::exception; ++i) {
+      if (cancelled_) break;
       one = {one.values};
       attempt({&one, 1});
       one.result.attempts = i;
@@ -235,6 +253,10 @@ std::vector<std::unique_ptr<PreparedCase>> Evaluator::prepare_cases(std::size_t 
 
 // The others of a group must not wait for one that has no time left.
 bool Evaluator::end_if_late(Attempt& attempt) const {
+  if (cancelled_) {
+    fail(attempt.result, Cause::cancelled, "cancelled");
+    return true;
+  }
   const bool is_late = timeout_s_ > 0.0 && attempt.spent_s >= timeout_s_;
   if (is_late) fail(attempt.result, Cause::timeout, "wall time used up before the run");
   return is_late;
@@ -243,7 +265,7 @@ bool Evaluator::end_if_late(Attempt& attempt) const {
 // Nothing when it ended here.
 std::unique_ptr<PreparedCase> Evaluator::prepare_case(std::size_t load_case, std::size_t point,
                                                       Attempt& attempt, const RunMetrics* like) {
-  const ReferenceRecord* record = reference(load_case, nullptr);
+  const ReferenceRecord* record = reference(load_case);
   const ModelInput input =
       require_model(*input_.model, overrides_of(load_cases_[load_case], *attempt.values));
   Preparation preparation = prepare(input.linkage, input.options);
@@ -264,7 +286,7 @@ void Evaluator::run_group(std::size_t load_case, const CaseGroup& group,
   double spent_s = 0.0;
   try {
     const Stopwatch watch(spent_s);
-    run_cases(group, limits_of(group, attempts));
+    run_cases(group, limits_of(time_left(group, attempts)));
   } catch (const std::exception& error) {
     for (const PreparedCase* item : group) {
       fail(attempts[item->point].result, Cause::exception, error.what());
@@ -281,6 +303,11 @@ void Evaluator::run_group(std::size_t load_case, const CaseGroup& group,
 
 void Evaluator::store(std::size_t load_case, const PreparedCase& item, Attempt& attempt) {
   CaseResult& result = attempt.result;
+  // Nobody's result, and somebody waits.
+  if (item.outcome.cause == Cause::cancelled) {
+    fail(result, Cause::cancelled, item.outcome.message);
+    return;
+  }
   const std::vector<double> numbers = item.metrics.reduce(item.outcome);
   result.responses.insert(result.responses.end(), numbers.begin(), numbers.end());
   std::vector<Trace> traces = item.metrics.traces();
@@ -292,13 +319,17 @@ void Evaluator::store(std::size_t load_case, const PreparedCase& item, Attempt& 
 
 // What is left to the case with most of it: one that was long in preparing takes nothing from the
 // others.
-RunLimits Evaluator::limits_of(const CaseGroup& group, std::span<Attempt> attempts) const {
-  if (timeout_s_ <= 0.0) return {};
+double Evaluator::time_left(const CaseGroup& group, std::span<Attempt> attempts) const {
+  if (timeout_s_ <= 0.0) return 0.0;
   double left = 1e-6;
   for (const PreparedCase* item : group) {
     left = std::max(left, timeout_s_ - attempts[item->point].spent_s);
   }
-  return {left, nullptr};
+  return left;
+}
+
+RunLimits Evaluator::limits_of(double timeout_s) {
+  return {timeout_s, &cancelled_, &reached_};
 }
 
 }  // namespace linkstudy

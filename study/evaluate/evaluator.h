@@ -4,10 +4,12 @@
 // Points that can share step loops run side by side (prepared_case.h); what a point gets is, to the
 // last bit, what it gets alone. An invalid model is Cause::invalid_point with the first diagnostic
 // as message, an exception Cause::exception after three attempts, the second and third alone. The
-// reference of a load case is run when first needed and kept: every rank runs its own, and all get
-// the same bits.
+// reference of a load case is run when first needed, or given, and kept.
+// cancel() ends what runs between two blocks of steps; what has no answer by then is
+// Cause::cancelled: nobody's result, to be asked for again.
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -37,8 +39,16 @@ class Evaluator {
   // Largest (or, of step_limit, smallest) value of a run number over the load cases.
   double worst(RunNumber number, const std::vector<double>& responses) const;
 
-  // Runs what references are missing. Throws ReferenceFailure; of Cause::cancelled when asked to.
-  void run_references(const std::atomic<bool>* cancelled);
+  // By load case, 0 of them without a reference.
+  std::size_t reference_count() const { return input_.reference ? load_cases_.size() : 0; }
+  const std::string& load_case_name(std::size_t i) const { return load_cases_.at(i).name; }
+  // Runs the reference of a load case where it is missing. Throws ReferenceFailure; of
+  // Cause::cancelled after cancel().
+  const ReferenceRecord& run_reference(std::size_t load_case);
+  void run_references();
+  // As another start or another rank ran it. Throws std::out_of_range where it is none of this
+  // study's.
+  void set_reference(std::size_t load_case, ReferenceRecord record);
   // Histories of the references, by load case; empty without a reference.
   std::vector<CaseTraces> reference_traces() const;
 
@@ -49,12 +59,17 @@ class Evaluator {
   // One result for each point. Any thread, one at a time.
   std::vector<CaseResult> evaluate(std::span<const std::vector<Value>> points);
 
+  // Any thread; for good.
+  void cancel() { cancelled_.store(true); }
+  // Model time that the latest run has reached, s: what changes is alive.
+  double reached() const { return reached_.load(std::memory_order_relaxed); }
+
  private:
   Evaluator(StudyInput input, std::vector<Parameter> parameters, StudySignals signals);
 
   std::vector<Override> overrides_of(const LoadCaseInput& load_case,
                                      const std::vector<Value>& point) const;
-  const ReferenceRecord* reference(std::size_t load_case, const std::atomic<bool>* cancelled);
+  const ReferenceRecord* reference(std::size_t load_case);
   struct Attempt;
   void attempt(std::span<Attempt> attempts);
   std::vector<std::unique_ptr<PreparedCase>> prepare_cases(std::size_t load_case,
@@ -62,9 +77,10 @@ class Evaluator {
   std::unique_ptr<PreparedCase> prepare_case(std::size_t load_case, std::size_t point,
                                              Attempt& attempt, const RunMetrics* like);
   bool end_if_late(Attempt& attempt) const;
+  RunLimits limits_of(double timeout_s);
   void run_group(std::size_t load_case, const CaseGroup& group, std::span<Attempt> attempts);
   void store(std::size_t load_case, const PreparedCase& item, Attempt& attempt);
-  RunLimits limits_of(const CaseGroup& group, std::span<Attempt> attempts) const;
+  double time_left(const CaseGroup& group, std::span<Attempt> attempts) const;
 
   StudyInput input_;
   std::vector<Parameter> parameters_;
@@ -73,6 +89,8 @@ class Evaluator {
   std::vector<Response> responses_;
   std::vector<JudgedError> judged_;
   double timeout_s_ = 0.0;
+  std::atomic<bool> cancelled_{false};
+  std::atomic<double> reached_{0.0};
   mutable std::mutex mutex_;
   std::vector<std::optional<ReferenceRecord>> references_;  // by load case
 };

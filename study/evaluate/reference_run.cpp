@@ -73,7 +73,7 @@ Observers make_observers(const StudySignals& signals, const std::vector<Channel>
 }  // namespace
 
 ReferenceRecord run_reference(const StudyInput& input, const LoadCaseInput& load_case,
-                              const std::atomic<bool>* cancelled) {
+                              const RunLimits& limits) {
   const ModelInput model = read_reference(input, load_case);
   Preparation preparation = prepare(model.linkage, model.options);
   if (preparation.cause != Cause::ok) fail(load_case, preparation.cause, preparation.message);
@@ -89,7 +89,7 @@ ReferenceRecord run_reference(const StudyInput& input, const LoadCaseInput& load
   Observers observers = make_observers(signals, all, record.grid, model.options.output_interval);
   const SimulationOutcome outcome = simulate(
       mechanism, preparation.model.parameters, preparation.model.start, model.options, observers,
-      RunLimits{0.0, cancelled}, worse({}, preparation.spectrum, preparation.model.start.t));
+      limits, worse({}, preparation.spectrum, preparation.model.start.t));
   if (outcome.cause != Cause::ok) fail(load_case, outcome.cause, outcome.message);
   record.joints = mechanism.joint_names;
   record.poses = to_states(observers.series.back(), mechanism);

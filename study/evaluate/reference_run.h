@@ -1,7 +1,6 @@
 // The run that [[match]] compares with, and the poses along it at which a case's spectrum is taken.
 #pragma once
 
-#include <atomic>
 #include <stdexcept>
 #include <string>
 
@@ -26,7 +25,7 @@ inline constexpr long kReferencePoses = 8;
 
 // The reference with these values set (a load case). Throws ReferenceFailure.
 ReferenceRecord run_reference(const StudyInput& input, const LoadCaseInput& load_case,
-                              const std::atomic<bool>* cancelled);
+                              const RunLimits& limits);
 
 // Highest eigenfrequency and smallest step limit of a prepared case at its start and at the
 // reference's poses, as far as both have the same joints; along: whether they have.

@@ -59,6 +59,11 @@ bool ComputeThread::idle() const {
   return tasks_.empty() && results_.empty() && !running_;
 }
 
+std::uint64_t ComputeThread::begun() const {
+  const std::lock_guard lock(mutex_);
+  return begun_;
+}
+
 void ComputeThread::loop() {
   std::unique_lock lock(mutex_);
   for (;;) {
@@ -67,6 +72,7 @@ void ComputeThread::loop() {
     Task task = std::move(tasks_.front());
     tasks_.pop_front();
     running_ = true;
+    ++begun_;
     lock.unlock();
     TaskResult result = compute(std::move(task));
     lock.lock();

@@ -29,6 +29,8 @@ class ComputeThread {
   void drop_queued();
   // Nothing queued, running or waiting to be popped.
   bool idle() const;
+  // Tasks begun so far.
+  std::uint64_t begun() const;
 
  private:
   void loop();
@@ -41,6 +43,7 @@ class ComputeThread {
   std::condition_variable result_there_;
   std::deque<Task> tasks_;
   std::deque<TaskResult> results_;
+  std::uint64_t begun_ = 0;
   bool running_ = false;
   bool ending_ = false;
   std::thread thread_;

@@ -3,8 +3,9 @@
 // A rank that dies ends the whole job: the survivors get SIGCONT, one second later SIGTERM, and one
 // more second later SIGKILL (odls_base_sigkill_timeout). So the journal is synced in that second
 // (PoolOptions::on_terminate) and the next start resumes. mpirun does the same when it is sent
-// SIGTERM or SIGINT itself, and exits with 1 whatever its ranks say; SIGUSR1 it passes on, leaves
-// the ranks their time and exits with their 75: that is the signal for batch scripts.
+// SIGTERM or SIGINT itself, and exits with 1 whatever its ranks say; SIGUSR1 and SIGUSR2 it passes
+// on, leaves the ranks their time and exits with their 75: those are the signals for scripts. With
+// a frozen rank only MPI_Abort ends the job; mpirun then exits with its code, 0 included.
 #pragma once
 
 #include <list>

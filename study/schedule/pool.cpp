@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
+#include <map>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -25,27 +27,51 @@ constexpr milliseconds tick_interval{100};
 constexpr int most_messages = 256;
 // For ranks to answer that they leave, when somebody is in a hurry.
 constexpr milliseconds hurry{2000};
+// For cancelled tasks to return: a launcher kills one second after its SIGTERM.
+constexpr milliseconds cancel_patience{500};
+// At the end of the time nobody kills yet.
+constexpr milliseconds late_patience{2000};
+// Ranks lost with a task, until it is the task.
+constexpr int most_losses = 3;
 
 }  // namespace
 
 struct Pool::Run {
+  Run(std::uint64_t run_number, std::vector<std::string> all, const OnResult& receiver, int ranks)
+      : number(run_number),
+        tasks(std::move(all)),
+        on_result(receiver),
+        given(static_cast<std::size_t>(ranks)),
+        is_answered(tasks.size(), false) {}
+
   std::uint64_t number;
-  std::vector<std::string> tasks;
+  std::vector<std::string> tasks;  // emptied when answered
   const OnResult& on_result;
-  std::size_t next = 0;      // first task not handed out
-  std::size_t answered = 0;  // results of this run
-  bool stopping = false;     // hands out no more
+  std::vector<std::vector<std::size_t>> given;  // by rank: handed out and not answered
+  std::vector<bool> is_answered;
+  std::deque<std::size_t> returned;     // of lost ranks, to be handed out again
+  std::map<std::size_t, int> losses{};  // ranks lost with a task
+  std::size_t next = 0;                 // first task not handed out
+  std::size_t answered = 0;             // results of this run
+  bool stopping = false;                // hands out no more
   RunEnd reason = RunEnd::complete;
+
+  void stop(RunEnd why) {
+    if (!stopping) reason = why;
+    stopping = true;
+  }
 };
 
 Pool::Pool(Transport& transport, Work work, PoolOptions options)
     : transport_(transport),
       options_(std::move(options)),
       thread_(std::move(work), transport.rank()),
-      outstanding_(static_cast<std::size_t>(transport.size()), 0) {}
+      outstanding_(static_cast<std::size_t>(transport.size()), 0),
+      watch_(transport.size(), options_.task_limit_s, Clock::now()),
+      left_(static_cast<std::size_t>(transport.size()), false) {}
 
 Pool::~Pool() {
-  if (transport_.rank() == 0) finish();
+  if (transport_.rank() == 0 && !close()) transport_.abort_all(exit_resumable);
 }
 
 int Pool::find_stop_level() const {
@@ -55,15 +81,17 @@ int Pool::find_stop_level() const {
 RunOutcome Pool::run(std::vector<std::string> tasks, const OnResult& on_result) {
   if (transport_.rank() != 0) throw std::logic_error("only rank 0 runs tasks; the others serve");
   if (finished_) throw std::logic_error("the pool has ended");
-  Run run{++run_number_, std::move(tasks), on_result};
+  Run run(++run_number_, std::move(tasks), on_result, transport_.size());
   cancelled_ = false;
+  watch_.restart(Clock::now());
   auto next_tick = Clock::now() + tick_interval;
   collect(run);
   for (int rank = 0; rank < transport_.size(); ++rank) feed(run, rank);
   for (;;) {
     const bool active = collect(run);
-    if (const auto end = find_end(run)) return {*end, run.answered};
-    if (!active || Clock::now() >= next_tick) wait(next_tick);
+    cancel_if_due(run);
+    if (const auto end = find_end(run)) return {*end, run.answered, run.reason};
+    if (!active || Clock::now() >= next_tick) wait(run, next_tick);
   }
 }
 
@@ -85,7 +113,8 @@ bool Pool::collect(Run& run) {
 }
 
 void Pool::note_message(Run* run, Message message) {
-  if (message.tag == Tag::bye) ++byes_;
+  watch_.hear(message.from, message.tag != Tag::stuck);
+  if (message.tag == Tag::bye) left_[static_cast<std::size_t>(message.from)] = true;
   if (message.tag == Tag::signal)
     forwarded_level_ = std::max(forwarded_level_, std::stoi(message.bytes));
   if (message.tag == Tag::result && run)
@@ -96,32 +125,53 @@ void Pool::note_message(Run* run, Message message) {
 // ended with an exception are dropped.
 void Pool::deliver(Run& run, TaskResult result) {
   const auto rank = static_cast<std::size_t>(result.rank);
-  --outstanding_[rank];
+  if (outstanding_[rank] > 0) --outstanding_[rank];
+  watch_.note_task(result.seconds);
   mean_seconds_ = mean_seconds_ < 0.0 ? result.seconds : 0.9 * mean_seconds_ + 0.1 * result.seconds;
   const bool current = result.run == run.number;
-  if (current) ++run.answered;
+  if (current) std::erase(run.given[rank], result.index);
   feed(run, result.rank);
-  if (current) run.on_result(std::move(result));
+  if (current) answer(run, std::move(result));
+}
+
+// The first answer counts: a rank that was given up may have another.
+void Pool::answer(Run& run, TaskResult result) {
+  const auto index = static_cast<std::size_t>(result.index);
+  if (run.is_answered[index]) return;
+  run.is_answered[index] = true;
+  run.tasks[index] = {};
+  ++run.answered;
+  run.on_result(std::move(result));
+}
+
+std::optional<std::size_t> Pool::next_task(Run& run) const {
+  while (!run.returned.empty()) {
+    const std::size_t index = run.returned.front();
+    run.returned.pop_front();
+    if (!run.is_answered[index]) return index;
+  }
+  if (run.next == run.tasks.size()) return std::nullopt;
+  return run.next++;
 }
 
 void Pool::feed(Run& run, int rank) {
   note_stop_signal();
   if (find_stop_level() > 0) {
-    run.stopping = true;
-    run.reason = RunEnd::signal;
-  } else if (!run.stopping && options_.deadline && Clock::now() >= *options_.deadline) {
-    run.stopping = true;
-    run.reason = RunEnd::deadline;
-  } else if (!run.stopping && cancelled_) {
-    run.stopping = true;
-    run.reason = RunEnd::cancelled;
+    run.stop(RunEnd::signal);
+  } else if (options_.deadline && Clock::now() >= *options_.deadline) {
+    run.stop(RunEnd::deadline);
+  } else if (cancelled_) {
+    run.stop(RunEnd::cancelled);
   }
+  if (watch_.is_lost(rank)) return;
   std::size_t& given = outstanding_[static_cast<std::size_t>(rank)];
   const std::size_t depth = find_depth(run);
-  while (!run.stopping && given < depth && run.next < run.tasks.size()) {
-    const std::size_t index = run.next++;
-    Task task{run.number, index, std::move(run.tasks[index])};
+  while (!run.stopping && given < depth) {
+    const auto index = next_task(run);
+    if (!index) return;
+    Task task{run.number, *index, run.tasks[*index]};
     ++given;
+    run.given[static_cast<std::size_t>(rank)].push_back(*index);
     if (rank == 0)
       thread_.push(std::move(task));
     else
@@ -139,13 +189,18 @@ std::size_t Pool::find_depth(const Run& run) const {
 
 std::optional<RunEnd> Pool::find_end(const Run& run) {
   if (run.answered == run.tasks.size()) return RunEnd::complete;
-  if (find_stop_level() >= 2) {
-    note_stop_signal();
-    thread_.drop_queued();
-    return RunEnd::abandoned;
+  if (run.stopping && !is_in_flight(run)) return run.reason;
+  if (watch_.lost_count() == transport_.size()) return RunEnd::no_rank;
+  if (!cancel_until_ || Clock::now() < *cancel_until_) return std::nullopt;
+  thread_.drop_queued();
+  return RunEnd::abandoned;
+}
+
+bool Pool::is_in_flight(const Run& run) const {
+  for (int rank = 0; rank < transport_.size(); ++rank) {
+    if (!watch_.is_lost(rank) && !run.given[static_cast<std::size_t>(rank)].empty()) return true;
   }
-  if (run.stopping && run.answered == run.next) return run.reason;
-  return std::nullopt;
+  return false;
 }
 
 void Pool::note_stop_signal() {
@@ -154,13 +209,68 @@ void Pool::note_stop_signal() {
   if (options_.on_terminate) options_.on_terminate();
 }
 
-void Pool::wait(Clock::time_point& next_tick) {
+void Pool::cancel_if_due(Run& run) {
+  const bool is_told = find_stop_level() >= stop_cancel;
+  const bool is_late = !is_told && options_.cancel_at && Clock::now() >= *options_.cancel_at;
+  if (cancel_until_ || (!is_told && !is_late)) return;
+  note_stop_signal();
+  run.stop(is_late ? RunEnd::deadline : RunEnd::signal);
+  if (options_.cancel_work) options_.cancel_work();
+  send_all(Tag::cancel, "");
+  cancel_until_ = Clock::now() + (is_late ? late_patience : cancel_patience);
+}
+
+void Pool::wait(Run& run, Clock::time_point& next_tick) {
   note_stop_signal();
   if (Clock::now() >= next_tick) {
     if (options_.on_tick) options_.on_tick();
+    watch_ranks(run);
     next_tick = Clock::now() + tick_interval;
   }
   thread_.wait_for_result(find_pause());
+}
+
+void Pool::watch_ranks(Run& run) {
+  call_ranks();
+  for (const int rank : watch_.find_lost(Clock::now())) lose(run, rank);
+}
+
+void Pool::call_ranks() {
+  watch_.hear(0, goes_on());
+  if (!watch_.is_time_to_call(Clock::now())) return;
+  for (int rank = 1; rank < transport_.size(); ++rank) {
+    if (!watch_.is_lost(rank) && !has_left(rank)) transport_.send(rank, Tag::call, "");
+  }
+}
+
+// Whether the compute thread of this rank is idle or has gone on since the last question.
+bool Pool::goes_on() {
+  const std::pair<std::uint64_t, double> before = beat_;
+  beat_ = {thread_.begun(), options_.find_beat ? options_.find_beat() : 0.0};
+  return thread_.idle() || !options_.find_beat || beat_ != before;
+}
+
+void Pool::say_lost(int rank, std::size_t tasks) {
+  if (!options_.on_lost) return;
+  options_.on_lost({rank, watch_.silence_s(rank), watch_.answers(rank), tasks});
+}
+
+void Pool::lose(Run& run, int rank) {
+  std::vector<std::size_t> tasks;
+  tasks.swap(run.given[static_cast<std::size_t>(rank)]);
+  outstanding_[static_cast<std::size_t>(rank)] = 0;
+  if (rank == 0) thread_.drop_queued();
+  say_lost(rank, tasks.size());
+  for (const std::size_t index : tasks) {
+    if (++run.losses[index] < most_losses) {
+      run.returned.push_back(index);
+      continue;
+    }
+    TaskResult result{run.number, index, {}, true, 0.0, rank, true};
+    result.bytes = "three ranks in turn showed no sign of life with this task";
+    answer(run, std::move(result));
+  }
+  for (int other = 0; other < transport_.size(); ++other) feed(run, other);
 }
 
 // Short against a task, so that an answered rank is not kept waiting; alone there is only the stop
@@ -172,36 +282,58 @@ microseconds Pool::find_pause() const {
 }
 
 void Pool::send_all(Tag tag, const std::string& bytes) {
-  for (int rank = 1; rank < transport_.size(); ++rank) transport_.send(rank, tag, bytes);
+  for (int rank = 1; rank < transport_.size(); ++rank) {
+    if (!watch_.is_lost(rank)) transport_.send(rank, tag, bytes);
+  }
+}
+
+bool Pool::has_left(int rank) const {
+  return left_[static_cast<std::size_t>(rank)];
+}
+
+bool Pool::have_all_left() {
+  for (int rank = 1; rank < transport_.size(); ++rank) {
+    if (!has_left(rank) && !watch_.is_lost(rank)) return false;
+  }
+  return watch_.lost_count() > 0 || transport_.all_sent();
 }
 
 // Drains what is still under way, so that nothing is left unreceived when MPI ends. Waits as long
-// as tasks run that a run left behind, but not after a second signal.
+// as tasks run that a run left behind, but not at stop_cancel.
 bool Pool::collect_byes() {
   std::optional<Clock::time_point> until;
+  watch_.restart(Clock::now());
   for (;;) {
     while (auto message = transport_.receive()) note_message(nullptr, std::move(*message));
-    const bool all_left = byes_ == transport_.size() - 1 && transport_.all_sent();
-    if (all_left && (thread_.idle() || leaving_)) return true;
+    if (have_all_left() && (thread_.idle() || leaving_)) return true;
     while (thread_.pop()) continue;
-    if (!until && (leaving_ || find_stop_level() >= 2)) until = Clock::now() + hurry;
+    call_ranks();
+    for (int rank = 1; rank < transport_.size(); ++rank) {
+      if (has_left(rank)) watch_.hear(rank, true);
+    }
+    const std::vector<int> lost = watch_.find_lost(Clock::now());
+    for (const int rank : lost) say_lost(rank, 0);
+    if (!lost.empty()) return false;
+    if (!until && (leaving_ || find_stop_level() >= stop_cancel)) until = Clock::now() + hurry;
     if (until && Clock::now() >= *until) return false;
     std::this_thread::sleep_for(microseconds(200));
   }
 }
 
-void Pool::finish() {
-  if (finished_) return;
+bool Pool::close() {
+  if (finished_) return closed_;
+  finished_ = true;
+  if (watch_.lost_count() > 0) return false;
   thread_.drop_queued();
   send_all(Tag::stop, "");
-  if (!collect_byes()) transport_.abort_all(exit_resumable);
-  finished_ = true;
+  closed_ = collect_byes();
+  return closed_;
 }
 
 void Pool::leave_now(int code) {
   leaving_ = true;
   send_all(Tag::abandon, std::to_string(code));
-  if (!collect_byes()) transport_.abort_all(code);
+  if (!collect_byes() || watch_.lost_count() > 0) transport_.abort_all(code);
   transport_.leave_now(code);
 }
 

@@ -9,8 +9,12 @@
 // polling and sleeping. A rank is given tasks in advance only while they are so short (below 10 ms)
 // that the way of a message counts. Results arrive in any order, each once, on the main thread.
 //
-// Stop signals (stop_signals.h) may reach any rank; rank 0 coordinates. Ranks that die end the job
-// (mpi_session.h); until the rest is killed, about one second later, on_terminate has its chance.
+// Stop signals (stop_signals.h) may reach any rank; rank 0 coordinates. Level stop_finish waits for
+// what is in flight; stop_cancel and the time cancel_at have every rank call cancel_work, and wait
+// half a second (at cancel_at two) for the answers. Ranks that die end the job (mpi_session.h);
+// until the rest is killed, about one second later, on_terminate has its chance. Ranks that freeze
+// are lost (rank_watch.h): their tasks go to others, a task that three ranks were lost with fails,
+// and the job then ends by leave_now, since MPI itself would wait for them.
 #pragma once
 
 #include <chrono>
@@ -19,18 +23,38 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "study/schedule/compute_thread.h"
+#include "study/schedule/rank_watch.h"
 #include "study/schedule/stop_signals.h"
 #include "study/schedule/task.h"
 #include "study/schedule/transport.h"
 
 namespace linkstudy {
 
+struct LostRank {
+  int rank = 0;
+  double silence_s = 0.0;
+  bool answers = false;   // its main thread does; the other one does not go on
+  std::size_t tasks = 0;  // that go elsewhere
+};
+
 struct PoolOptions {
   // No work is handed out from then on.
   std::optional<std::chrono::steady_clock::time_point> deadline;
+  // What is in flight then is cancelled.
+  std::optional<std::chrono::steady_clock::time_point> cancel_at;
+  // Every rank, main thread: tasks that run here, and those behind them, are to return soon.
+  std::function<void()> cancel_work;
+  // Every rank, main thread: a number that changes while a task goes on. Without it a task that
+  // hangs is not told from one that is long.
+  std::function<double()> find_beat;
+  // Longest time of one task, s; 0: no limit (rank_watch.h).
+  double task_limit_s = 0.0;
+  // Rank 0, main thread, when a rank is lost.
+  std::function<void(const LostRank&)> on_lost;
   // Called once, on rank 0's main thread, as soon as a stop signal is seen: sync the journal.
   std::function<void()> on_terminate;
   // Called on rank 0's main thread during run, about every 0.1 s: redraw, sync.
@@ -42,12 +66,14 @@ enum class RunEnd {
   cancelled,  // Pool::cancel was called
   deadline,
   signal,
-  abandoned,  // second signal: tasks may still be running, see leave_now
+  abandoned,  // cancelled, and not all have answered: tasks may still be running, see leave_now
+  no_rank,    // all are lost
 };
 
 struct RunOutcome {
   RunEnd end = RunEnd::complete;
-  std::size_t done = 0;  // results delivered, failed ones included
+  std::size_t done = 0;              // results delivered, failed ones included
+  RunEnd reason = RunEnd::complete;  // of an abandoned run: deadline or signal
 
   // The caller writes what it has and exits with exit_resumable.
   bool interrupted() const { return end >= RunEnd::deadline; }
@@ -58,9 +84,7 @@ class Pool {
   using OnResult = std::function<void(TaskResult result)>;
 
   Pool(Transport& transport, Work work, PoolOptions options = {});
-  // Rank 0: tells the others that there is no more work and waits until they have left serve and
-  // tasks that a run left behind have ended; after a second stop signal it waits no more than two
-  // seconds and then ends all ranks with exit_resumable.
+  // Rank 0: close(), and where that is in vain all ranks end with exit_resumable.
   ~Pool();
   Pool(const Pool&) = delete;
   Pool& operator=(const Pool&) = delete;
@@ -77,8 +101,13 @@ class Pool {
   // Other ranks. Returns when rank 0 is done; after an abandoned run it exits with rank 0's code.
   void serve();
 
-  // Rank 0, after an abandoned run, with everything written: every rank exits with this code
-  // without waiting for tasks that are still running.
+  // Rank 0: tells the others that there is no more work and waits until they have left serve and
+  // tasks that a run left behind have ended; at stop_cancel no more than two seconds. False where
+  // that does not come about or a rank was lost: then leave_now is the only way out.
+  bool close();
+
+  // Rank 0, after an abandoned run or a close in vain, with everything written: every rank exits
+  // with this code without waiting for tasks that are still running.
   [[noreturn]] void leave_now(int code);
 
  private:
@@ -90,16 +119,27 @@ class Pool {
   void deliver(Run& run, TaskResult result);
   void feed(Run& run, int rank);
   std::size_t find_depth(const Run& run) const;
+  std::optional<std::size_t> next_task(Run& run) const;
+  void answer(Run& run, TaskResult result);
   std::optional<RunEnd> find_end(const Run& run);
+  bool is_in_flight(const Run& run) const;
   void note_stop_signal();
-  void wait(std::chrono::steady_clock::time_point& next_tick);
+  void cancel_if_due(Run& run);
+  void wait(Run& run, std::chrono::steady_clock::time_point& next_tick);
+  void watch_ranks(Run& run);
+  void call_ranks();
+  void lose(Run& run, int rank);
+  void say_lost(int rank, std::size_t tasks);
+  bool goes_on();
   std::chrono::microseconds find_pause() const;
   void send_all(Tag tag, const std::string& bytes);
   void note_message(Run* run, Message message);
+  bool has_left(int rank) const;
+  bool have_all_left();
   bool collect_byes();
-  void finish();
 
   void send_results();
+  void take_orders(bool& stopped, bool& active);
   void forward_signals();
   void say_bye();
   [[noreturn]] void leave_worker(int code);
@@ -111,10 +151,14 @@ class Pool {
   std::uint64_t run_number_ = 0;
   double mean_seconds_ = -1.0;  // of recent tasks, negative until the first
   int forwarded_level_ = 0;     // highest stop level of the other ranks; on those: level passed on
-  int byes_ = 0;
+  RankWatch watch_;
+  std::vector<bool> left_;  // ranks that have said bye, (size)
+  std::pair<std::uint64_t, double> beat_{0, 0.0};
+  std::optional<std::chrono::steady_clock::time_point> cancel_until_;
   bool terminate_called_ = false;
   bool cancelled_ = false;
   bool finished_ = false;
+  bool closed_ = false;
   bool leaving_ = false;
 };
 

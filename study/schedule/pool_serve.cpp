@@ -29,14 +29,7 @@ void Pool::serve() {
   auto last_active = Clock::now();
   while (!stopped || !thread_.idle()) {
     bool active = false;
-    while (auto message = transport_.receive()) {
-      active = true;
-      if (message->tag == Tag::task) thread_.push(unpack_task(std::move(message->bytes)));
-      if (message->tag == Tag::abandon) leave_worker(std::stoi(message->bytes));
-      if (message->tag != Tag::stop) continue;
-      stopped = true;
-      thread_.drop_queued();
-    }
+    take_orders(stopped, active);
     send_results();
     forward_signals();
     if (active) last_active = Clock::now();
@@ -47,6 +40,31 @@ void Pool::serve() {
                                                                                : pause_idle);
   }
   say_bye();
+}
+
+void Pool::take_orders(bool& stopped, bool& active) {
+  while (auto message = transport_.receive()) {
+    active = true;
+    switch (message->tag) {
+      case Tag::task:
+        thread_.push(unpack_task(std::move(message->bytes)));
+        break;
+      case Tag::call:
+        transport_.send(0, goes_on() ? Tag::going : Tag::stuck, "");
+        break;
+      case Tag::cancel:
+        if (options_.cancel_work) options_.cancel_work();
+        break;
+      case Tag::abandon:
+        leave_worker(std::stoi(message->bytes));
+      case Tag::stop:
+        stopped = true;
+        thread_.drop_queued();
+        break;
+      default:
+        break;
+    }
+  }
 }
 
 void Pool::send_results() {
@@ -61,10 +79,12 @@ void Pool::send_results() {
   }
 }
 
-// A rank does not stop by itself: rank 0 hears of the signal and coordinates.
+// A rank does not stop by itself: rank 0 hears of the signal and coordinates. But what runs here is
+// cancelled here, in case rank 0 is no longer there to say so.
 void Pool::forward_signals() {
-  const int level = std::min(stop_level(), 2);
+  const int level = std::min(stop_level(), stop_cancel);
   if (level <= forwarded_level_) return;
+  if (level == stop_cancel && options_.cancel_work) options_.cancel_work();
   forwarded_level_ = level;
   transport_.send(0, Tag::signal, std::to_string(level));
 }

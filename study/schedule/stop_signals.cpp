@@ -37,14 +37,32 @@ void note_continue(int) {
   errno = saved;
 }
 
+void raise_level(int least) {
+  for (int now = level.load(); now < least && !level.compare_exchange_weak(now, least);) continue;
+}
+
+bool cancels(int number) {
+  return number == SIGTERM || number == SIGHUP || number == SIGUSR2;
+}
+
 void count_signal(int number) {
   const int saved = errno;
   const std::int64_t now_ns = find_time_ns();
   const std::int64_t before = last_time_ns.exchange(now_ns);
-  if (level.load() == 0 || now_ns - before >= one_press_ns) ++level;
+  if (cancels(number)) {
+    raise_level(stop_cancel);
+  } else if (level.load() == 0 || now_ns - before >= one_press_ns) {
+    raise_level(level.load() + 1);
+  }
   if (number == SIGTERM && now_ns - continue_time_ns.load() < ending_ns) dying.store(true);
   last_signal.store(number);
   errno = saved;
+}
+
+bool is_ignored(int number) {
+  struct sigaction present {};
+  sigaction(number, nullptr, &present);
+  return present.sa_handler == SIG_IGN;
 }
 
 }  // namespace
@@ -55,8 +73,11 @@ StopSignals::StopSignals() {
   action.sa_handler = count_signal;
   action.sa_flags = SA_RESTART;
   sigemptyset(&action.sa_mask);
-  for (const int number : {SIGTERM, SIGUSR1, SIGINT}) sigaddset(&action.sa_mask, number);
-  for (const int number : {SIGTERM, SIGUSR1, SIGINT}) sigaction(number, &action, nullptr);
+  constexpr int stops[] = {SIGTERM, SIGHUP, SIGINT, SIGUSR1, SIGUSR2};
+  for (const int number : stops) sigaddset(&action.sa_mask, number);
+  for (const int number : stops) {
+    if (number != SIGHUP || !is_ignored(SIGHUP)) sigaction(number, &action, nullptr);
+  }
   action.sa_handler = note_continue;
   sigaction(SIGCONT, &action, nullptr);
 }
@@ -74,7 +95,7 @@ int last_stop_signal() {
 }
 
 void request_stop() {
-  ++level;
+  raise_level(level.load() + 1);
 }
 
 void reset_stop() {

@@ -25,6 +25,7 @@ struct TaskResult {
   bool failed = false;
   double seconds = 0.0;  // in Work
   int rank = 0;          // where
+  bool lost = false;     // failed: three ranks that had it fell silent
 };
 
 std::string pack_task(Task task);

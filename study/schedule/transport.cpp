@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "study/schedule/batch_job.h"
 #include "study/schedule/launcher.h"
 #include "study/schedule/mpi_session.h"
 
@@ -42,6 +43,7 @@ void Transport::abort_all(int code) {
 
 std::unique_ptr<Transport> make_transport() {
   const Launcher launcher = find_launcher(read_environment);
+  check_batch_step(read_environment, launcher);
   if (launcher.size <= 1) return std::make_unique<LocalTransport>();
   check_reachable(launcher);
   auto session = std::make_unique<MpiSession>();

@@ -9,7 +9,7 @@
 
 namespace linkstudy {
 
-enum class Tag : int { task = 1, result, stop, abandon, bye, signal };
+enum class Tag : int { task = 1, result, stop, cancel, abandon, bye, signal, call, going, stuck };
 
 struct Message {
   int from = 0;

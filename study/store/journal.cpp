@@ -36,6 +36,9 @@ struct Collect {
   }
   void operator()(TraceSet&& set) const { replace_or_add(contents.traces, std::move(set)); }
   void operator()(NamedText&& text) const { replace_or_add(contents.texts, std::move(text)); }
+  void operator()(StoredReference&& reference) const {
+    replace_or_add(contents.references, std::move(reference));
+  }
   void operator()(ProvenanceRow&& row) const {
     contents.provenance.push_back(std::move(row));
     contents.evaluations_since_start = 0;
@@ -62,6 +65,16 @@ void require_readable(const JournalHeader& header, const std::filesystem::path& 
   }
 }
 
+// An older program must not meet records that it does not know.
+void require_continuable(const JournalContents& contents, const std::filesystem::path& path) {
+  if (contents.version == kJournalVersion) return;
+  throw StoreError(fmt::format(
+      "{}: journal version {}, this program continues version {} and reads the older one only for "
+      "status and export; continue with the program that wrote it, choose another directory with "
+      "-o or overwrite the study with --fresh",
+      path.string(), contents.version, kJournalVersion));
+}
+
 File open_and_lock(const std::filesystem::path& directory) {
   File file(directory / kJournalName, O_RDWR | O_CREAT);
   if (!file.try_lock()) {
@@ -83,6 +96,7 @@ JournalContents parse_journal(std::string_view bytes, const std::filesystem::pat
     contents.dropped_bytes = bytes.size();
     return contents;
   }
+  contents.version = header.version;
   contents.input_sha256 = header.input_sha256;
   std::size_t at = kJournalHeaderSize;
   while (true) {
@@ -150,6 +164,7 @@ void Journal::start(const std::string& header) {
 
 void Journal::resume(const std::string& input_sha256) {
   contents_ = parse_journal(file_.read_all(), file_.path());
+  require_continuable(contents_, file_.path());
   if (contents_.input_sha256 != input_sha256) {
     throw StoreError(fmt::format(
         "{}: holds a study of another input (digest {}..., yours is {}...); choose another "

@@ -19,10 +19,12 @@ namespace linkstudy {
 inline constexpr const char* kJournalName = "journal.bin";
 
 struct JournalContents {
-  std::string input_sha256;             // empty where the run was killed before its header
-  std::vector<Evaluation> evaluations;  // by id; the last record of an id counts
-  std::vector<TraceSet> traces;         // the last of each name
-  std::vector<NamedText> texts;         // the last of each name
+  std::uint32_t version = kJournalVersion;
+  std::string input_sha256;                 // empty where the run was killed before its header
+  std::vector<Evaluation> evaluations;      // by id; the last record of an id counts
+  std::vector<TraceSet> traces;             // the last of each name
+  std::vector<NamedText> texts;             // the last of each name
+  std::vector<StoredReference> references;  // the last of each name
   std::vector<ProvenanceRow> provenance;
   std::optional<StudyDescription> description;
   std::uint64_t evaluations_since_start = 0;  // records after the last provenance row
@@ -31,7 +33,7 @@ struct JournalContents {
 };
 
 // Contents of the bytes of a journal; `path` is for messages. Throws StoreError where the bytes are
-// no journal of this version.
+// no journal of a version that this program reads.
 JournalContents parse_journal(std::string_view bytes, const std::filesystem::path& path);
 
 // Reads DIR/journal.bin of a dead or a running study; takes no lock.

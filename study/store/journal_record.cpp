@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <boost/crc.hpp>
-#include <limits>
 
 #include "study/record/evaluation_bytes.h"
 #include "study/store/store_error.h"
@@ -15,7 +14,15 @@ namespace {
 constexpr std::string_view kMagic = "linkstJ\n";
 constexpr std::size_t kDigestSize = 64;
 
-enum class Kind : std::uint8_t { evaluation = 1, traces, text, provenance, description };
+enum class Kind : std::uint8_t {
+  evaluation = 1,
+  traces,
+  text,
+  provenance_without_job,  // version 2
+  description,
+  reference,
+  provenance
+};
 
 std::uint32_t crc32(std::string_view first, std::string_view second = {}) {
   boost::crc_32_type crc;
@@ -91,9 +98,11 @@ void put(ByteWriter& out, const ProvenanceRow& row) {
   out.put_text(row.command);
   out.put_text(row.simd);
   out.put_u32(row.lanes);
+  out.put_text(row.job);
+  out.put_u32(row.restart);
 }
 
-ProvenanceRow get_provenance(ByteReader& in) {
+ProvenanceRow get_provenance(ByteReader& in, Kind kind) {
   ProvenanceRow row;
   row.event = in.get_text();
   row.time_unix_s = in.get_f64();
@@ -105,6 +114,9 @@ ProvenanceRow get_provenance(ByteReader& in) {
   row.command = in.get_text();
   row.simd = in.get_text();
   row.lanes = in.get_u32();
+  if (kind == Kind::provenance_without_job) return row;
+  row.job = in.get_text();
+  row.restart = in.get_u32();
   return row;
 }
 
@@ -147,6 +159,19 @@ StudyDescription get_description(ByteReader& in) {
   return description;
 }
 
+void put(ByteWriter& out, const StoredReference& reference) {
+  out.put_u8(static_cast<std::uint8_t>(Kind::reference));
+  out.put_text(reference.name);
+  out.put_text(reference.bytes);
+}
+
+StoredReference get_reference(ByteReader& in) {
+  StoredReference reference;
+  reference.name = in.get_text();
+  reference.bytes = in.get_text();
+  return reference;
+}
+
 JournalRecord get_record(ByteReader& in) {
   const std::uint8_t kind = in.get_u8();
   switch (static_cast<Kind>(kind)) {
@@ -156,10 +181,13 @@ JournalRecord get_record(ByteReader& in) {
       return get_trace_set(in);
     case Kind::text:
       return get_named_text(in);
+    case Kind::provenance_without_job:
     case Kind::provenance:
-      return get_provenance(in);
+      return get_provenance(in, static_cast<Kind>(kind));
     case Kind::description:
       return get_description(in);
+    case Kind::reference:
+      return get_reference(in);
   }
   throw StoreError(fmt::format("journal holds a record of the unknown kind {}", kind));
 }
@@ -197,8 +225,9 @@ JournalHeader decode_header(std::string_view bytes) {
   if (sum.get_u32() != crc32(body)) {
     header.state = HeaderState::damaged;
   } else {
-    header.state =
-        header.version == kJournalVersion ? HeaderState::complete : HeaderState::other_version;
+    const bool is_known =
+        header.version >= kOldestJournalVersion && header.version <= kJournalVersion;
+    header.state = is_known ? HeaderState::complete : HeaderState::other_version;
   }
   return header;
 }
@@ -206,7 +235,7 @@ JournalHeader decode_header(std::string_view bytes) {
 std::string encode_record(const JournalRecord& record) {
   ByteWriter payload;
   std::visit([&](const auto& content) { put(payload, content); }, record);
-  if (payload.bytes().size() > std::numeric_limits<std::uint32_t>::max()) {
+  if (payload.bytes().size() > kMostRecordBytes) {
     throw StoreError("a record is larger than 4 GiB; ask for fewer or coarser time histories");
   }
   ByteWriter length;

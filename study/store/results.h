@@ -33,6 +33,12 @@ struct NamedText {
   std::string text;
 };
 
+// A reference run that has ended, in bytes of study/evaluate: no later start repeats it.
+struct StoredReference {
+  std::string name;  // of the load case, or empty
+  std::string bytes;
+};
+
 // One start or resume of the program on a directory.
 struct ProvenanceRow {
   std::string event;         // "start", "resume"
@@ -43,8 +49,10 @@ struct ProvenanceRow {
   std::string program_version;
   std::string git_revision;
   std::string command;
-  std::string simd{};       // instruction set of the step loops on rank 0
-  std::uint32_t lanes = 1;  // cases that run side by side there
+  std::string simd{};         // instruction set of the step loops on rank 0
+  std::uint32_t lanes = 1;    // cases that run side by side there
+  std::string job{};          // of the queue that started it (Slurm's job id), or empty
+  std::uint32_t restart = 0;  // how often that job was requeued before
 };
 
 struct StudyResults {

@@ -163,6 +163,10 @@ DataGroup provenance_group(const std::vector<ProvenanceRow>& rows,
       column_of(rows, [](const Row& r) { return r.simd; }));
   add("lanes", "", "evaluations that run side by side on rank 0",
       column_of(rows, [](const Row& r) { return std::int64_t{r.lanes}; }));
+  add("job", "", "job of the queue that started it, empty without",
+      column_of(rows, [](const Row& r) { return r.job; }));
+  add("restart", "", "how often that job was requeued before",
+      column_of(rows, [](const Row& r) { return std::int64_t{r.restart}; }));
   add("command", "", "command line", column_of(rows, [](const Row& r) { return r.command; }));
   for (const NamedText& text : texts) {
     group.attributes.push_back({text.name, text.text});

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <numeric>
 
+#include "study/record/digest.h"
 #include "study/store/file.h"
 
 namespace linkstudy {
@@ -63,6 +64,11 @@ StudyStatus summarize_status(const JournalContents& contents, double last_write_
     } else {
       ++status.failed[evaluation.status];
     }
+  }
+  status.references = contents.references.size();
+  if (contents.description) {
+    status.digest = results_digest(contents.description->parameters,
+                                   contents.description->responses, contents.evaluations);
   }
   status.last_write_age_s = std::max(0.0, now_unix_s - last_write_unix_s);
   if (!contents.provenance.empty()) {

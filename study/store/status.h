@@ -18,8 +18,10 @@ struct StudyStatus {
   bool is_complete = false;
   std::uint64_t done = 0;  // ended ok
   std::map<Cause, std::uint64_t> failed;
-  bool running = false;         // a process holds the journal
-  double started_unix_s = 0.0;  // first start
+  bool running = false;          // a process holds the journal
+  std::uint64_t references = 0;  // reference runs that have ended
+  std::string digest;            // of the results so far
+  double started_unix_s = 0.0;   // first start
   double last_write_age_s = 0.0;
   // Time left at the rate of the latest start: (total - finished) (t_last_write - t_start) / n,
   // n the evaluations since that start: of a tune the most it can be. Empty before the first one.

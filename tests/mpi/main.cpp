@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -310,6 +311,33 @@ int run_until_abandoned(Transport& transport, const std::string& marker) {
   pool.leave_now(exit_resumable);
 }
 
+// Tasks of minutes that end when told to: the signal must reach every rank, and nothing else is
+// waited for.
+int run_until_cancelled(Transport& transport, const std::string& marker) {
+  std::atomic<bool> cancelled = false;
+  PoolOptions options;
+  options.cancel_work = [&] { cancelled = true; };
+  const Work work = [&](const std::string& task) {
+    const auto start = Clock::now();
+    while (task != "0" && !cancelled && seconds_since(start) < 300.0) {
+      std::this_thread::sleep_for(milliseconds(1));
+    }
+    return std::string(cancelled ? "cancelled" : "whole");
+  };
+  const auto size = static_cast<std::size_t>(transport.size());
+  with_pool(transport, work, options, [&](Pool& pool) {
+    std::map<int, int> cancelled_tasks;  // by rank
+    const auto outcome = pool.run(count_up(1000 * size), [&](const TaskResult& result) {
+      if (result.index == 0) return touch(marker);
+      expect(result.bytes == "cancelled", "no task is waited for");
+      ++cancelled_tasks[result.rank];
+    });
+    expect(outcome.end == RunEnd::signal, "the run ends by a signal");
+    expect(cancelled_tasks.size() == size, "every rank has answered");
+  });
+  return transport.agree_exit_code(exit_resumable);
+}
+
 // Prints throughput; no test, because times are no truth.
 int measure(Transport& transport) {
   const auto spin = [](double seconds) {
@@ -341,8 +369,10 @@ int run_command(Transport& transport, const std::vector<std::string>& words) {
   if (words.size() == 4 && words[0] == "stop")
     return run_until_stopped(transport, std::stoi(words[1]), std::stoi(words[2]), words[3]);
   if (words.size() == 2 && words[0] == "abandon") return run_until_abandoned(transport, words[1]);
+  if (words.size() == 2 && words[0] == "cancel") return run_until_cancelled(transport, words[1]);
   fmt::print(stderr,
-             "usage: test_mpi checks | measure | stop RANK SIGNAL MARKER | abandon MARKER\n");
+             "usage: test_mpi checks | measure | stop RANK SIGNAL MARKER | abandon MARKER | "
+             "cancel MARKER\n");
   return 2;
 }
 

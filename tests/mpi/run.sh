@@ -6,6 +6,7 @@
 #        run.sh TEST_MPI N end                      mpirun gets SIGTERM: rank 0 has time to sync
 #        run.sh TEST_MPI N die                      rank 1 is killed: rank 0 has time to sync
 #        run.sh TEST_MPI N abandon                  two SIGUSR1, minutes of work left: all exit 75
+#        run.sh TEST_MPI N cancel                   SIGUSR2, minutes in flight: all exit 75
 #        run.sh TEST_MPI N serial-copies            another library's launcher: explained, exit 2
 #        run.sh TEST_MPI N measure                  prints throughput
 set -u
@@ -26,7 +27,7 @@ launch() {
   [ -z "${unwrapped:-}" ] ||
     exec mpirun -n "$ranks" --oversubscribe --bind-to none "$program" "$@"
   exec mpirun -n "$ranks" --oversubscribe --bind-to none sh -c '
-    trap "" TERM USR1 INT
+    trap "" TERM USR1 USR2 INT
     "$@" & child=$!
     wait $child; echo $? >"$TMPDIR/code.$OMPI_COMM_WORLD_RANK"' - "$program" "$@"
 }
@@ -79,6 +80,11 @@ case $check in
     launch abandon "$TMPDIR/marker" & job=$!
     wait_for_file "$TMPDIR/marker"
     kill -USR1 $job; sleep 1; kill -USR1 $job; wait $job
+    expect_codes 75 ;;
+  cancel)
+    launch cancel "$TMPDIR/marker" & job=$!
+    wait_for_file "$TMPDIR/marker"
+    kill -USR2 $job; wait $job
     expect_codes 75 ;;
   serial-copies)
     PMI_SIZE=$ranks PMI_RANK=0 "$program" checks >"$TMPDIR/out" 2>&1

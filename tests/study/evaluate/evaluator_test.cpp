@@ -8,6 +8,9 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <thread>
+
+#include "study/evaluate/reference_bytes.h"
 
 namespace linkstudy {
 namespace {
@@ -240,7 +243,7 @@ TEST_F(Evaluation, Keeps_traces_that_end_with_the_last_response) {
   EXPECT_EQ(traces[0].name, "time");
   EXPECT_DOUBLE_EQ(traces[0].values.back(), 0.1);
   EXPECT_EQ(traces[1].values.back(), number(result, "heavy_speed"));
-  evaluator_->run_references(nullptr);
+  evaluator_->run_references();
   EXPECT_EQ(evaluator_->reference_traces().size(), 2u);
 }
 
@@ -261,6 +264,57 @@ TEST_F(Evaluation, Ends_at_its_time_limit) {
   EXPECT_EQ(result.status, Cause::timeout) << result.message;
 }
 
+TEST_F(Evaluation, Is_cancelled_between_blocks_of_steps_and_not_tried_again) {
+  make(kWeightless + vary_text("simulation.end_time", "1e5") + vary_text("link.rod.mass", "1.0"));
+  std::thread other([&] {
+    while (evaluator_->reached() == 0.0) std::this_thread::yield();
+    evaluator_->cancel();
+  });
+  const std::vector<std::vector<Value>> points = {{1e5, 1.0}, {1e5, 2.0}};
+  const std::vector<CaseResult> results = evaluator_->evaluate(points);
+  other.join();
+  for (const CaseResult& result : results) {
+    EXPECT_EQ(result.status, Cause::cancelled) << result.message;
+    EXPECT_EQ(result.attempts, 1u);
+  }
+  EXPECT_EQ(evaluate({0.1, 1.0}).status, Cause::cancelled) << "what follows ends at once";
+}
+
+constexpr const char* kMatched = R"(
+reference = { set = { "closure.C.model" = "cut" } }
+base = { set = { "closure.C.model" = "sde" } }
+[[vary]]
+parameter = "link.rod.mass"
+values = [1.0]
+[[match]]
+signal = "closure.C.force"
+tolerance = 0.01
+[[trace]]
+signals = ["closure.C.force"]
+)";
+
+TEST_F(Evaluation, Against_a_stored_reference_is_the_same_to_the_last_bit) {
+  make(kMatched);
+  const std::string stored = encode_reference(evaluator_->run_reference(0));
+  const std::string own = bytes_of(evaluate({1.5}));
+  make(kMatched);
+  evaluator_->set_reference(0, decode_reference(stored));
+  evaluator_->run_references();
+  EXPECT_EQ(encode_reference(evaluator_->run_reference(0)), stored);
+  EXPECT_EQ(bytes_of(evaluate({1.5})), own);
+  EXPECT_FALSE(evaluator_->run_reference(0).poses.empty());
+}
+
+TEST_F(Evaluation, Takes_no_reference_that_is_damaged_or_of_another_study) {
+  make(kMatched);
+  const std::string stored = encode_reference(evaluator_->run_reference(0));
+  for (std::size_t length = 0; length < stored.size(); length += 7) {
+    EXPECT_THROW(decode_reference(stored.substr(0, length)), std::out_of_range) << length;
+  }
+  EXPECT_THROW(decode_reference(stored + "x"), std::out_of_range);
+  EXPECT_THROW(evaluator_->set_reference(0, {}), std::out_of_range);
+}
+
 TEST_F(Evaluation, Stops_the_study_when_the_reference_fails) {
   make(R"(
 reference = { set = { "closure.C.model" = "sde", "closure.C.sde.stiffness" = 1e12 } }
@@ -272,7 +326,7 @@ signal = "closure.C.force"
 tolerance = 0.01
 )");
   try {
-    evaluator_->run_references(nullptr);
+    evaluator_->run_references();
     FAIL() << "the reference runs";
   } catch (const ReferenceFailure& failure) {
     EXPECT_THAT(failure.what(), HasSubstr("the reference run failed"));

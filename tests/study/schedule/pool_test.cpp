@@ -178,12 +178,69 @@ TEST_P(SignalledPool, Waits_for_the_running_task_and_ends_interrupted) {
   EXPECT_EQ(pool.run(count_up(5), [](const TaskResult&) {}).done, 0u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Each, SignalledPool, testing::Values(SIGTERM, SIGUSR1, SIGINT));
+INSTANTIATE_TEST_SUITE_P(Each, SignalledPool, testing::Values(SIGUSR1, SIGINT));
+
+// Work that ends within a millisecond of being told to, and else takes minutes.
+class Interruptible {
+ public:
+  explicit Interruptible(PoolOptions& options) {
+    options.cancel_work = [this] { cancelled_ = true; };
+  }
+  std::string operator()() const {
+    const auto give_up = steady_clock::now() + std::chrono::minutes(5);
+    while (!cancelled_ && steady_clock::now() < give_up) {
+      std::this_thread::sleep_for(milliseconds(1));
+    }
+    return cancelled_ ? "cancelled" : "whole";
+  }
+
+ private:
+  std::atomic<bool> cancelled_ = false;
+};
+
+class CancellingPool : public LocalPool, public testing::WithParamInterface<int> {};
+
+TEST_P(CancellingPool, Cancels_the_running_task_and_ends_interrupted) {
+  const StopSignals signals;
+  PoolOptions options;
+  int terminated = 0;
+  options.on_terminate = [&] { ++terminated; };
+  const Interruptible wait_long(options);
+  Pool pool(
+      transport_,
+      [&](const std::string&) {
+        kill(getpid(), GetParam());
+        return wait_long();
+      },
+      options);
+  std::vector<std::string> answers;
+  const auto outcome =
+      pool.run(count_up(10), [&](const TaskResult& result) { answers.push_back(result.bytes); });
+  EXPECT_EQ(outcome.end, RunEnd::signal);
+  EXPECT_EQ(answers, std::vector<std::string>{"cancelled"});
+  EXPECT_EQ(terminated, 1);
+  EXPECT_TRUE(pool.close());
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, CancellingPool, testing::Values(SIGTERM, SIGHUP, SIGUSR2));
+
+TEST_F(LocalPool, Cancels_what_is_in_flight_at_the_end_of_its_time) {
+  PoolOptions options;
+  options.cancel_at = steady_clock::now() + milliseconds(100);
+  const Interruptible wait_long(options);
+  Pool pool(
+      transport_, [&](const std::string&) { return wait_long(); }, options);
+  const auto outcome = pool.run(
+      count_up(10), [](const TaskResult& result) { EXPECT_EQ(result.bytes, "cancelled"); });
+  EXPECT_EQ(outcome.end, RunEnd::deadline);
+  EXPECT_TRUE(outcome.interrupted());
+  EXPECT_EQ(outcome.done, 1u);
+}
 
 TEST_F(LocalPool, Is_complete_when_a_signal_comes_during_its_last_task) {
   const StopSignals signals;
   Pool pool(transport_, [](const std::string& task) {
-    kill(getpid(), SIGTERM);
+    kill(getpid(), SIGUSR1);
     return task;
   });
   EXPECT_EQ(pool.run(count_up(1), [](const TaskResult&) {}).end, RunEnd::complete);

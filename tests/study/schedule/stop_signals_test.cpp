@@ -10,21 +10,41 @@ namespace linkstudy {
 namespace {
 
 TEST(Stop_signals, Raise_the_level_instead_of_killing) {
-  for (const int number : {SIGTERM, SIGUSR1, SIGINT}) {
+  for (const int number : {SIGUSR1, SIGINT}) {
     const StopSignals signals;
     EXPECT_EQ(stop_level(), 0);
     raise(number);
-    EXPECT_EQ(stop_level(), 1);
+    EXPECT_EQ(stop_level(), stop_finish);
     EXPECT_EQ(last_stop_signal(), number);
   }
   reset_stop();
 }
 
+TEST(Stop_signals, That_a_kill_follows_cancel_at_once) {
+  for (const int number : {SIGTERM, SIGHUP, SIGUSR2}) {
+    const StopSignals signals;
+    raise(number);
+    EXPECT_EQ(stop_level(), stop_cancel);
+    raise(number);
+    EXPECT_EQ(stop_level(), stop_cancel);
+    EXPECT_EQ(last_stop_signal(), number);
+  }
+  reset_stop();
+}
+
+TEST(Stop_signals, Of_a_lost_terminal_stay_ignored_under_nohup) {
+  const auto before = signal(SIGHUP, SIG_IGN);
+  const StopSignals signals;
+  raise(SIGHUP);
+  EXPECT_EQ(stop_level(), 0);
+  signal(SIGHUP, before);
+}
+
 TEST(Stop_signals, Passed_on_by_several_senders_at_once_count_once) {
   const StopSignals signals;
   raise(SIGINT);
-  raise(SIGTERM);
-  raise(SIGTERM);
+  raise(SIGUSR1);
+  raise(SIGINT);
   EXPECT_EQ(stop_level(), 1);
   std::this_thread::sleep_for(std::chrono::milliseconds(150));
   raise(SIGINT);

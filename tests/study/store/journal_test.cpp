@@ -105,7 +105,7 @@ TEST_F(JournalFile, Has_the_layout_it_documents) {
   write(1);
   const std::string bytes = read_file(path());
   EXPECT_EQ(bytes.substr(0, 8), "linkstJ\n");
-  EXPECT_EQ(bytes.substr(8, 4), std::string("\x02\0\0\0", 4));
+  EXPECT_EQ(bytes.substr(8, 4), std::string("\x03\0\0\0", 4));
   EXPECT_EQ(bytes.substr(12, 64), kInput);
   std::uint32_t length = 0;
   std::uint32_t sum = 0;
@@ -206,7 +206,57 @@ TEST_F(JournalFile, Another_version_is_refused_by_name) {
   std::memcpy(&bytes[76], &sum, 4);
   put(path(), bytes);
   EXPECT_THAT(message_of<StoreError>([&] { Journal(dir_, kInput, OpenMode::resume); }),
-              HasSubstr("journal version 9, this program reads version 2"));
+              HasSubstr("journal version 9, this program reads version 3"));
+}
+
+// Records of kind 4 end before the job: the shape that version 2 wrote.
+TEST_F(JournalFile, Of_the_older_version_is_read_and_not_continued) {
+  write(2);
+  std::string bytes = read_file(path());
+  bytes[8] = 2;
+  boost::crc_32_type crc;
+  crc.process_bytes(bytes.data(), 76);
+  const std::uint32_t sum = crc.checksum();
+  std::memcpy(&bytes[76], &sum, 4);
+  ProvenanceRow row = sample::results().provenance[0];
+  row.job = "";
+  std::string old_row = encode_record(row);
+  old_row.resize(old_row.size() - 12);  // length of an empty text, restart
+  old_row[kRecordPrefixSize] = 4;
+  const auto length = static_cast<std::uint32_t>(old_row.size() - kRecordPrefixSize);
+  std::memcpy(old_row.data(), &length, 4);
+  boost::crc_32_type record_crc;
+  record_crc.process_bytes(old_row.data(), 4);
+  record_crc.process_bytes(old_row.data() + kRecordPrefixSize, length);
+  const std::uint32_t record_sum = record_crc.checksum();
+  std::memcpy(&old_row[4], &record_sum, 4);
+  put(path(), bytes + old_row);
+  const JournalContents contents = read_journal(dir_);
+  expect_rows(contents, 2);
+  ASSERT_EQ(contents.provenance.size(), 1u);
+  EXPECT_EQ(contents.provenance[0].command, row.command);
+  EXPECT_EQ(contents.provenance[0].lanes, row.lanes);
+  EXPECT_THAT(message_of<StoreError>([&] { Journal(dir_, kInput, OpenMode::resume); }),
+              HasSubstr("journal version 2, this program continues version 3"));
+}
+
+TEST_F(JournalFile, Gives_back_reference_runs_and_the_job_of_a_start) {
+  {
+    Journal journal(dir_, kInput, OpenMode::resume);
+    ProvenanceRow row = sample::results().provenance[1];
+    row.job = "12_3";
+    row.restart = 2;
+    journal.append(row);
+    journal.append(StoredReference{"", std::string("\0\xff", 2)});
+    journal.append(StoredReference{"fast", "older"});
+    journal.append(StoredReference{"fast", "newer"});
+  }
+  const JournalContents contents = read_journal(dir_);
+  EXPECT_EQ(contents.provenance.at(0).job, "12_3");
+  EXPECT_EQ(contents.provenance.at(0).restart, 2u);
+  ASSERT_EQ(contents.references.size(), 2u);
+  EXPECT_EQ(contents.references[0].bytes, std::string("\0\xff", 2));
+  EXPECT_EQ(contents.references[1].bytes, "newer");
 }
 
 TEST_F(JournalFile, A_second_writer_is_refused_while_the_first_lives) {

@@ -75,6 +75,8 @@ def check_rest(path, engine):
         assert runtime.evaluation.values.tolist() == [0, 1, 2, 3]
     with xr.open_dataset(path, group="provenance", engine=engine) as provenance:
         assert provenance.event.values.tolist() == ["start", "resume"]
+        assert provenance.job.values.tolist() == ["", "12_3"]
+        assert provenance.restart.values.tolist() == [0, 1]
         start = np.datetime64("2023-11-14T22:13:20.25")  # xarray's own decoding rounds to 0.2 us
         assert abs(provenance.time.values[0] - start) < np.timedelta64(1, "us")
         assert provenance.attrs["input_text"] == 'format = 1\nname = "\u00e4"\n'

@@ -97,7 +97,8 @@ inline StudyResults results() {
   results.tunings = {tuning()};
   results.provenance = {
       {"start", 1.7e9 + 0.25, 4, 3, "n1", "0.1.0", "05ba0c3", "linkstudy study", "avx2", 4},
-      {"resume", 1.7e9 + 60, 4, 2, "n2", "0.1.0", "05ba0c3", "linkstudy study", "avx512", 8}};
+      {"resume", 1.7e9 + 60, 4, 2, "n2", "0.1.0", "05ba0c3", "linkstudy study", "avx512", 8, "12_3",
+       1}};
   results.texts = {{"input_text", "format = 1\nname = \"\u00e4\"\n"}, {"machine", "x86_64"}};
   return results;
 }
