@@ -48,7 +48,7 @@ int run_check(const CommandLine& line) {
   }
   if (line.json) print_out(to_json(all));
   for (const Diagnostic& diagnostic : all) {
-    if (!line.json) fmt::print(stderr, "{}", to_string(diagnostic) + "\n");
+    if (!line.json) print_err(to_string(diagnostic) + "\n");
   }
   return all.empty() ? kDone : kInputError;
 }

@@ -44,6 +44,8 @@ class StudySession {
   // From the pool's clock.
   void tick();
   void finish_progress();
+  // Whether nothing of a design is left to do; of a tune, which has none, never.
+  bool is_exhausted() const;
   // After a second stop signal: tasks are still running and are not waited for.
   bool is_abandoned() const { return abandoned_; }
 
@@ -53,6 +55,7 @@ class StudySession {
   void take_pack(const std::vector<Point>& pack, const TaskResult& task);
   void take(const Evaluation& evaluation, const std::vector<CaseTraces>& traces);
   void check_failures();
+  std::size_t count_running() const;
 
   const CommandLine& line_;
   Evaluator& evaluator_;
@@ -62,6 +65,9 @@ class StudySession {
   std::uint64_t total_;  // 0 where not known beforehand
   std::uint64_t failures_ = 0;
   bool abandoned_ = false;
+  std::vector<std::size_t> points_before_;  // of the packs in hand: in those before each, and all
+  std::size_t packs_taken_ = 0;
+  std::size_t points_taken_ = 0;
   Progress progress_;
   std::string stop_reason_;
 };
