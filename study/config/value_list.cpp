@@ -62,8 +62,9 @@ class ValueLister {
     const double n = count.is_numeric() ? count.as_number() : 0.0;
     if (!(n >= 2.0 && n <= kMostValues && n == std::floor(n))) {
       fail(count,
-           fmt::format("the count of {} must be an integer from 2 to {:.0f}, got {}", form,
-                       kMostValues, shown(count)),
+           fmt::format("the count of {} must be an integer of at {}, got {}", form,
+                       n > kMostValues ? fmt::format("most {:.0f}", kMostValues) : "least 2",
+                       shown(count)),
            fmt::format("{} = [first, last, count]", form));
       return {};
     }
