@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/simulation/channel_kinds.h"
+
 namespace linkstudy {
 namespace {
 
@@ -18,71 +20,89 @@ class Lister {
   explicit Lister(const Mechanism& m) : m_(m) {}
 
   std::vector<Channel> run() {
-    add("time", "s", Quantity::time, 0, 0);
+    add("", Quantity::time, 0);
     for (std::size_t b = 1; b < m_.bodies.size(); ++b) add_joint(static_cast<int>(b));
     for (std::size_t i = 0; i < m_.closures.size(); ++i) {
       const std::string name = "closure." + m_.closure_names[i];
       const int closure = static_cast<int>(i);
-      add_vector(name + ".force", "N", Quantity::closure_force, closure);
-      add_vector(name + ".torque", "N m", Quantity::closure_torque, closure);
-      add_vector(name + ".gap", "m", Quantity::closure_gap, closure);
+      add_vector(name, Quantity::closure_force, closure);
+      add_vector(name, Quantity::closure_torque, closure);
+      add_vector(name, Quantity::closure_gap, closure);
       add_clearances_of(closure, name);
     }
     for (std::size_t i = 0; i < m_.point_bodies.size(); ++i) add_point(i);
-    add("energy.kinetic", "J", Quantity::kinetic, 0, 0);
-    add("energy.potential", "J", Quantity::potential, 0, 0);
-    add("energy.supplied", "J", Quantity::supplied, 0, 0);
-    add("energy.dissipated", "J", Quantity::dissipated, 0, 0);
-    add("energy.residual", "J", Quantity::residual, 0, 0);
+    for (const ChannelKind& kind : channel_kinds()) {
+      if (kind.owner == "energy") add("energy", kind.quantity, 0);
+    }
     return std::move(channels_);
   }
 
  private:
-  void add(std::string name, std::string unit, Quantity quantity, int index, int component) {
-    channels_.push_back({std::move(name), std::move(unit), quantity, index, component});
+  struct Member {
+    std::string suffix = {};  // ".x", ".0"
+    int component = 0;
+    std::string_view unit = {};  // where the kind leaves a choice
+  };
+
+  // owner: "joint.A"; empty for the time.
+  void add(const std::string& owner, Quantity quantity, int index, const Member& member) {
+    const ChannelKind& kind = kind_of(quantity);
+    std::string name = owner.empty() ? owner : owner + ".";
+    name += kind.label;
+    const bool is_choice = kind.unit.find('|') != std::string_view::npos;
+    channels_.push_back({name + member.suffix, std::string(is_choice ? member.unit : kind.unit),
+                         quantity, index, member.component});
   }
 
-  void add_vector(const std::string& name, const std::string& unit, Quantity quantity, int index) {
+  void add(const std::string& owner, Quantity quantity, int index) {
+    add(owner, quantity, index, {});
+  }
+
+  void add_vector(const std::string& owner, Quantity quantity, int index, int size = 3) {
     constexpr const char* axes[] = {".x", ".y", ".z"};
-    for (int i = 0; i < 3; ++i) add(name + axes[i], unit, quantity, index, i);
+    for (int i = 0; i < size; ++i) {
+      add(owner, quantity, index, {.suffix = axes[i], .component = i});
+    }
   }
 
   void add_point(std::size_t i) {
     const std::string name = "point." + m_.point_names[i];
     const auto first = static_cast<std::ptrdiff_t>(channels_.size());
     const int index = static_cast<int>(i);
-    add_vector(name + ".position", "m", Quantity::point_position, index);
-    add_vector(name + ".velocity", "m/s", Quantity::point_velocity, index);
-    add_vector(name + ".acceleration", "m/s^2", Quantity::point_acceleration, index);
+    add_vector(name, Quantity::point_position, index);
+    add_vector(name, Quantity::point_velocity, index);
+    add_vector(name, Quantity::point_acceleration, index);
     for (auto c = channels_.begin() + first; c != channels_.end(); ++c)
       c->body = m_.point_bodies[i];
+  }
+
+  void add_coordinate(const std::string& owner, Quantity quantity, int begin, int i, int count,
+                      std::string_view unit) {
+    const std::string suffix = count == 1 ? std::string() : "." + std::to_string(i);
+    add(owner, quantity, begin + i, {.suffix = suffix, .unit = unit});
   }
 
   void add_joint(int b) {
     const Body& body = m_.bodies[static_cast<std::size_t>(b)];
     const std::string name = "joint." + m_.joint_names[static_cast<std::size_t>(b)];
-    const auto numbered = [](const std::string& base, int i, int count) {
-      return count == 1 ? base : base + "." + std::to_string(i);
-    };
     for (int i = 0; i < body.q_count; ++i) {
       const bool pure_number = body.q_count != body.v_count && i >= body.q_count - 4;
       const char* unit = pure_number ? "" : is_rotation(m_, body.v_begin + i) ? "rad" : "m";
-      add(numbered(name + ".q", i, body.q_count), unit, Quantity::q, body.q_begin + i, 0);
+      add_coordinate(name, Quantity::q, body.q_begin, i, body.q_count, unit);
     }
     for (int i = 0; i < body.v_count; ++i) {
       const bool rotation = is_rotation(m_, body.v_begin + i);
-      add(numbered(name + ".v", i, body.v_count), rotation ? "rad/s" : "m/s", Quantity::v,
-          body.v_begin + i, 0);
+      add_coordinate(name, Quantity::v, body.v_begin, i, body.v_count, rotation ? "rad/s" : "m/s");
     }
     for (int i = 0; i < body.v_count; ++i) {
       const bool rotation = is_rotation(m_, body.v_begin + i);
-      add(numbered(name + ".a", i, body.v_count), rotation ? "rad/s^2" : "m/s^2", Quantity::a,
-          body.v_begin + i, 0);
+      add_coordinate(name, Quantity::a, body.v_begin, i, body.v_count,
+                     rotation ? "rad/s^2" : "m/s^2");
     }
-    add_vector(name + ".force", "N", Quantity::joint_force, b);
-    add_vector(name + ".torque", "N m", Quantity::joint_torque, b);
-    add_vector(name + ".force_local", "N", Quantity::joint_force_local, b);
-    add_vector(name + ".torque_local", "N m", Quantity::joint_torque_local, b);
+    add_vector(name, Quantity::joint_force, b);
+    add_vector(name, Quantity::joint_torque, b);
+    add_vector(name, Quantity::joint_force_local, b);
+    add_vector(name, Quantity::joint_torque_local, b);
     add_friction_of(b, name);
   }
 
@@ -90,26 +110,23 @@ class Lister {
     for (std::size_t i = 0; i < m_.clearances.size(); ++i) {
       const ClearanceStructure& c = m_.clearances[i];
       if (c.closure != closure) continue;
-      const int index = static_cast<int>(i);
-      add(name + ".eccentricity.x", "m", Quantity::eccentricity, index, 0);
-      add(name + ".eccentricity.y", "m", Quantity::eccentricity, index, 1);
-      add_contacts(c, name + ".penetration.", "m", Quantity::penetration);
-      add_contacts(c, name + ".normal_force.", "N", Quantity::normal_force);
-      add_contacts(c, name + ".friction_force.", "N", Quantity::friction_force);
-      add_contacts(c, name + ".bristle.", "m", Quantity::bristle);
-      add(name + ".contact_state", "", Quantity::contact_state, index, 0);
+      add_vector(name, Quantity::eccentricity, static_cast<int>(i), 2);
+      add_contacts(c, name, Quantity::penetration);
+      add_contacts(c, name, Quantity::normal_force);
+      add_contacts(c, name, Quantity::friction_force);
+      add_contacts(c, name, Quantity::bristle);
+      add(name, Quantity::contact_state, static_cast<int>(i));
     }
   }
 
   // Bristles are found by their own number; contacts without friction have none.
-  void add_contacts(const ClearanceStructure& c, const std::string& name, const std::string& unit,
-                    Quantity quantity) {
+  void add_contacts(const ClearanceStructure& c, const std::string& name, Quantity quantity) {
     for (int i = c.contact_begin; i < c.contact_end; ++i) {
       const int z = m_.contacts[static_cast<std::size_t>(i)].z;
       const bool rubs = quantity == Quantity::friction_force || quantity == Quantity::bristle;
       if (rubs && z < 0) continue;
-      add(name + std::to_string(i - c.contact_begin), unit, quantity,
-          quantity == Quantity::bristle ? z : i, 0);
+      add(name, quantity, quantity == Quantity::bristle ? z : i,
+          {.suffix = "." + std::to_string(i - c.contact_begin)});
     }
   }
 
@@ -119,15 +136,17 @@ class Lister {
       if (f.body != b) continue;
       const int index = static_cast<int>(i);
       const bool both = f.turn >= 0 && f.slide >= 0;
-      add(name + ".normal_load", "N", Quantity::friction_load, index, 0);
+      const char* first = both ? ".0" : "";
+      const char* second = both ? ".1" : "";
+      add(name, Quantity::friction_load, index);
       if (f.turn >= 0) {
-        add(name + (both ? ".friction.0" : ".friction"), "N m", Quantity::joint_friction, index, 0);
+        add(name, Quantity::joint_friction, index, {.suffix = first, .unit = "N m"});
       }
       if (f.slide >= 0) {
-        add(name + (both ? ".friction.1" : ".friction"), "N", Quantity::joint_friction, index, 1);
+        add(name, Quantity::joint_friction, index, {.suffix = second, .component = 1, .unit = "N"});
       }
-      add(name + (both ? ".bristle.0" : ".bristle"), "m", Quantity::bristle, f.z, 0);
-      if (both) add(name + ".bristle.1", "m", Quantity::bristle, f.z + 1, 0);
+      add(name, Quantity::bristle, f.z, {.suffix = first});
+      if (both) add(name, Quantity::bristle, f.z + 1, {.suffix = second});
     }
   }
 

@@ -1,24 +1,5 @@
 // Channels: every scalar of a run that has a name (interface: "joint.A.q", "closure.S.force.x",
-// "energy.residual", ...). Units SI. Frames, signs and points:
-//   joint.N.q|v|a[.i]            coordinates in the order of the joint, their rates; for a joint
-//                                with a quaternion v and a are angular velocity and acceleration
-//   joint.N.force|torque.x|y|z   reaction on the child link at the joint origin, ground axes
-//   joint.N.force_local|...      the same in the child's joint frame
-//   closure.N.force|torque.x..   on chain 1 (`first`) at the closure point, ground axes
-//   closure.N.gap.x|y|z          second minus first closure point, ground axes
-//   joint.N.normal_load          of a joint with friction; joint.N.friction[.i]: against the motion
-//                                of its coordinates; joint.N.bristle[.i]
-//   with clearance:
-//   closure.N.eccentricity.x|y   bearing centre less journal centre along y and z of the bearing's
-//                                frame (x is its axis), in the middle of the bearing
-//   closure.N.penetration.i, .normal_force.i, .friction_force.i, .bristle.i
-//                                of contact i: planar 0; spatial 0 and 1, at the ends of the
-//                                bearing
-//                                (-x and +x); friction against the journal's turn in the bearing
-//   closure.N.contact_state      0 free, 1 one point, 2 two points on opposite sides, 3 line
-//   point.N.position|velocity|acceleration.x|y|z
-//                                of a chosen point, ground axes
-//   energy.kinetic|potential|supplied|dissipated|residual
+// "energy.residual", ...). Units SI. Names, units, frames, points and signs: channel_kinds.cpp.
 #pragma once
 
 #include <string>

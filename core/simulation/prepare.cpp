@@ -79,11 +79,58 @@ void warn_of_redundancy(const Linkage& linkage, const std::vector<unsigned>& idl
       "are redundant: use stabilization = \"baumgarte\" or \"projection\"");
 }
 
+std::string joint_of(const Mechanism& m, int velocity) {
+  const int body = m.velocities[static_cast<std::size_t>(velocity)].body;
+  return m.joint_names[static_cast<std::size_t>(body)];
+}
+
+// Joints with hold = true, "A, B".
+std::string held_joints(const Model& model) {
+  std::vector<std::string> names;
+  for (const int k : model.held) {
+    const std::string name = joint_of(model.mechanism, k);
+    if (names.empty() || names.back() != name) names.push_back(name);
+  }
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
 bool accept_velocities(const AssemblyReport& a, Preparation& p) {
   if (a.velocity_residual <= kVelocityTolerance) return true;
   fail(p, Cause::assembly_failed,
-       "the held velocities do not fit the closures: residual " + number(a.velocity_residual));
+       "the velocities of the held joints (" + held_joints(p.model) +
+           ") do not fit the closures: residual " + number(a.velocity_residual) +
+           "; let one of them go, or give them velocities that belong together");
   return false;
+}
+
+std::string held_advice(const Model& model) {
+  const std::string held = held_joints(model);
+  if (held.empty()) return {};
+  return "; held where they are: " + held + " (hold = true)";
+}
+
+// The pose that was found, to be written into the model. All digits: a start that is closed is
+// taken as it is.
+std::string pose_text(const Model& model) {
+  std::string text;
+  for (std::size_t b = 1; b < model.mechanism.bodies.size(); ++b) {
+    const Body& body = model.mechanism.bodies[b];
+    if (body.q_count == 0) continue;
+    text += "\n    initial.position = [";
+    for (int i = 0; i < body.q_count; ++i) {
+      char value[32];
+      std::snprintf(value, sizeof value, "%.17g",
+                    model.start.q[static_cast<std::size_t>(body.q_begin + i)]);
+      text += (i > 0 ? ", " : "") + std::string(value);
+      if (text.find_first_of(".en", text.size() - std::string(value).size()) == std::string::npos) {
+        text += ".0";
+      }
+    }
+    text += "]  # of joint " + model.mechanism.joint_names[b];
+  }
+  return text;
 }
 
 void warn_of_flipped(const AssemblyReport& a, Preparation& p) {
@@ -144,13 +191,14 @@ bool assemble(const Linkage& linkage, const std::vector<unsigned>& idle, const M
   if (!a.closed) {
     fail(p, Cause::assembly_failed,
          "the given start cannot be closed: " + open_text(a) + ", after " +
-             std::to_string(a.restarts) + " restarts");
+             std::to_string(a.restarts) + " restarts" + held_advice(p.model));
     return false;
   }
   if (!loose && !accept_velocities(a, p)) return false;
   if (!loose && a.restarts > 0) {
     p.warnings.push_back("the given start did not lead to a closed pose; used restart " +
-                         std::to_string(a.restarts) + ", " + number(a.displacement) + " away");
+                         std::to_string(a.restarts) + ", " + number(a.displacement) +
+                         " away. To begin there:" + pose_text(p.model));
   }
   warn_of_velocities(linkage, p);
   warn_of_flipped(a, p);

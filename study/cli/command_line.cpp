@@ -47,10 +47,10 @@ const std::vector<Verb>& verbs() {
          {"output,o", "slurm", "fresh"}},
         {"check", "FILE...", 1, kMany, "validates files; lists all problems in one pass", {"json"}},
         {"describe",
-         "[PATH]",
+         "[PATH | channels [MODEL] | units]",
          0,
-         1,
-         "prints the reference of the keys, all or under a path",
+         2,
+         "prints the reference of the keys, of the channels of a model, or of units",
          {"markdown"}},
         {"simulate",
          "MODEL",
@@ -152,7 +152,7 @@ void add_option(const std::string& name, CommandLine& line, po::options_descript
                       is_file ? "write to this file" : "results directory");
   } else if (name == "set,s") {
     out.add_options()(name.c_str(), po::value(&line.set)->composing()->value_name("PATH=VALUE"),
-                      "set a value of the input; repeatable");
+                      "set a value of the input; repeatable; * for a name: everywhere");
   } else if (name == "json") {
     out.add_options()("json", po::bool_switch(&line.json), "one JSON object on standard output");
   } else if (name == "markdown") {
@@ -169,7 +169,8 @@ void add_option(const std::string& name, CommandLine& line, po::options_descript
                                                 : "write time histories; - is standard output");
   } else if (name == "signals") {
     out.add_options()("signals", optional_value(line.signals)->value_name("A,B"),
-                      "channels or groups of --csv; default: all");
+                      "channels of --csv, or groups: closure.S.force, joint.A, energy; default: "
+                      "all; linkstudy describe channels MODEL");
   } else if (name == "format") {
     out.add_options()("format", po::value(&line.format)->value_name("FORM"),
                       "text, csv, md, json or latex");
@@ -292,7 +293,13 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments) {
   const std::string& first = arguments.front();
   const bool is_version = first == "--version" || first == "version";
   if (is_version || first == "--help" || first == "-h" || first == "help") {
-    require(arguments.size() == 1, fmt::format("{} stands alone", first));
+    if (first == "help" && arguments.size() == 2) {
+      line.verb = find_verb(arguments.back()).name;
+      line.help = true;
+      return line;
+    }
+    require(arguments.size() == 1,
+            fmt::format("{} stands alone{}", first, first == "help" ? ", or before a verb" : ""));
     line.verb = is_version ? "version" : "help";
     return line;
   }
@@ -308,10 +315,15 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments) {
 std::string usage() {
   std::string text = "usage: linkstudy VERB [options] INPUT\n\n";
   for (const Verb& verb : verbs()) {
-    text += fmt::format("  {:<11}{:<10}{}\n", verb.name, verb.inputs, verb.does);
+    const bool fits = std::string_view(verb.inputs).size() < 10;
+    text += fmt::format("  {:<11}{:<10}{}\n", verb.name, fits ? verb.inputs : "[...]", verb.does);
   }
   return text +
-         "\n'linkstudy VERB --help' lists the options of a verb; 'linkstudy --version'.\n"
+         "\n'linkstudy help VERB' lists the options of a verb; 'linkstudy --version'.\n"
+         "'linkstudy describe' lists every key of the input files, 'describe channels' what a run\n"
+         "can tell, 'describe units' how quantities may be written.\n"
+         "A joint of the tree moves along or about its local z; a closure has its axis along the\n"
+         "local x of its frames.\n"
          "Exit codes: 0 done, 1 internal error, 2 usage or input error, 3 too many cases failed,\n"
          "4 tuning found nothing or was refuted, 75 interrupted and resumable.\n";
 }

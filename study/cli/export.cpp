@@ -95,7 +95,13 @@ class TraceTable {
 }  // namespace
 
 int run_export(const CommandLine& line) {
-  StudyResults results = results_from(read_journal(line.inputs.front()));
+  const JournalContents contents = read_journal(line.inputs.front());
+  // A study that runs is written to at this moment.
+  const std::string dropped = dropped_text(contents, line.inputs.front());
+  if (!dropped.empty() && !is_locked(std::filesystem::path(line.inputs.front()) / kJournalName)) {
+    print_err(fmt::format("linkstudy: warning: {}\n", dropped));
+  }
+  StudyResults results = results_from(contents);
   std::ranges::stable_sort(results.traces, {}, &TraceSet::evaluation);
   if (line.traces && results.traces.empty() && results.references.empty()) {
     throw StoreError(fmt::format("{}: holds no time histories; ask for them with [[trace]]",

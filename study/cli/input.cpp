@@ -70,7 +70,7 @@ void throw_if_any(const Diagnostics& diagnostics) {
 }
 
 void print_remarks(const std::vector<Diagnostic>& remarks) {
-  for (const Diagnostic& remark : remarks) fmt::print(stderr, "{}\n", to_string(remark));
+  for (const Diagnostic& remark : remarks) print_err(to_string(remark) + "\n");
 }
 
 ModelInput read_model_input(const CommandLine& line) {

@@ -17,6 +17,8 @@ int run_kinematics(const CommandLine& line) {
   if (line.h5) require_writable(*line.h5);
   const ModelInput input = read_model_input(line);
   const Model closed = compile_closed(input.rigid);
+  remove_old(line.csv);
+  remove_old(line.h5);
   const KinematicsResult result = analyse_kinematics(line, input.kinematics, closed);
   const std::string text = kinematics_text(line.inputs.front(), input.name, result);
   if (line.csv) {

@@ -21,12 +21,15 @@ struct Driven {
 double read_quantity(const std::string& option, const std::string& text, const char* unit) {
   const std::optional<WrittenQuantity> written = split_quantity(text);
   if (written && written->unit.empty()) return written->value;
-  const std::optional<Unit> from = written ? parse_unit(written->unit) : std::nullopt;
+  UnitFault fault;
+  const std::optional<Unit> from = written ? parse_unit(written->unit, &fault) : std::nullopt;
   const std::optional<double> value =
       from ? convert_unit(written->value, *from, *parse_unit(unit)) : std::nullopt;
   if (value) return *value;
-  throw UsageError(
-      fmt::format("{} must be a number in {}, or one with a unit, got '{}'", option, unit, text));
+  std::string hint = from ? explain_angle(*from, *parse_unit(unit)) : fault.hint;
+  if (!hint.empty()) hint = "; " + hint;
+  throw UsageError(fmt::format("{} must be a number in {}, or one with a unit, got '{}'{}", option,
+                               unit, text, hint));
 }
 
 const char* unit_of(const Drive& drive) {

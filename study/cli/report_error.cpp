@@ -5,6 +5,7 @@
 #include "core/base/isa.h"
 #include "study/cli/exit_code.h"
 #include "study/cli/input.h"
+#include "study/cli/output.h"
 #include "study/schedule/launcher.h"
 #include "study/store/store_error.h"
 
@@ -31,6 +32,8 @@ Failure describe_failure(const std::exception_ptr& error) {
     return make_failure(kInputError, simd.what());
   } catch (const StoreError& store) {
     return make_failure(kInputError, store.what());
+  } catch (const OutputError& output) {
+    return make_failure(kInternalError, output.what());
   } catch (const ReferenceFailure& reference) {
     return make_failure(kTooManyFailed, reference.what());
   } catch (const std::exception& other) {

@@ -61,7 +61,7 @@ int run_program(const std::vector<std::string>& arguments) {
     return run_verb(arguments);
   } catch (...) {
     const Failure failure = describe_failure(std::current_exception());
-    fmt::print(stderr, "{}", failure.text);
+    print_err(failure.text);
     return failure.code;
   }
 }

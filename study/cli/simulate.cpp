@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 
 #include "core/base/isa.h"
+#include "core/simulation/channel_kinds.h"
 #include "core/topology/nearest_name.h"
 #include "study/cli/exit_code.h"
 #include "study/cli/input.h"
@@ -36,7 +38,7 @@ std::vector<Channel> choose_channels(const std::vector<Channel>& all,
   if (!signals) return all;
   std::vector<Channel> chosen = {time_channel()};
   for (const std::string& signal : split_list(*signals)) {
-    const std::vector<Channel> found = find_channels(all, signal);
+    const std::vector<Channel> found = find_channel_group(all, signal);
     if (found.empty()) {
       std::vector<std::string> names = signal_names(all);
       for (const Channel& channel : all) names.push_back(channel.name);
@@ -44,7 +46,9 @@ std::vector<Channel> choose_channels(const std::vector<Channel>& all,
                                    fmt::join(nearest_names(signal, names, 3), ", ")));
     }
     for (const Channel& channel : found) {
-      if (channel.quantity != Quantity::time) chosen.push_back(channel);
+      const bool is_known = std::ranges::any_of(
+          chosen, [&](const Channel& other) { return other.name == channel.name; });
+      if (!is_known) chosen.push_back(channel);
     }
   }
   return chosen;
@@ -89,7 +93,8 @@ void print_text(const CommandLine& line, const std::string& text) {
 }
 
 int report_unprepared(const CommandLine& line, const Preparation& preparation, double wall_s) {
-  fmt::print(stderr, "linkstudy: error: {}: {}\n", name_of(preparation.cause), preparation.message);
+  print_err(
+      fmt::format("linkstudy: error: {}: {}\n", name_of(preparation.cause), preparation.message));
   if (line.json) print_out(outcome_json(preparation, nullptr, wall_s) + "\n");
   return kTooManyFailed;
 }
@@ -127,8 +132,9 @@ int run_simulate(const CommandLine& line) {
   const ModelInput input = read_model_input(line);
   const auto begin = Clock::now();
   Observers observers = choose_series(line, input);
+  remove_old(line.csv);
   const Preparation preparation = prepare(input.linkage, input.options);
-  fmt::print(stderr, "{}", warning_text(preparation));
+  print_err(warning_text(preparation));
   print_text(line, preparation_text(line.inputs.front(), input.name, preparation, input.options));
   if (preparation.cause != Cause::ok) {
     return report_unprepared(line, preparation, seconds_since(begin));
@@ -137,7 +143,7 @@ int run_simulate(const CommandLine& line) {
   const double wall_s = seconds_since(begin);
   write_csv(line, observers);
   if (!outcome.warning.empty()) {
-    fmt::print(stderr, "linkstudy: warning: {}\n", outcome.warning);
+    print_err(fmt::format("linkstudy: warning: {}\n", outcome.warning));
   }
   print_text(line, outcome_text(outcome, input.options, wall_s));
   if (line.json) print_out(outcome_json(preparation, &outcome, wall_s) + "\n");

@@ -48,8 +48,8 @@ void take_ideal_bearings(Linkage& linkage) {
   for (Closure& closure : linkage.closures) {
     if (closure.model != ClosureModel::clearance) continue;
     closure.model = ClosureModel::cut;
-    fmt::print(stderr, "linkstudy: note: closure '{}' has clearance: taken as an ideal joint\n",
-               closure.name);
+    print_err(fmt::format("linkstudy: note: closure '{}' has clearance: taken as an ideal joint\n",
+                          closure.name));
   }
 }
 
@@ -64,7 +64,7 @@ int run_statics(const CommandLine& line) {
   const auto begin = Clock::now();
   const Preparation preparation = prepare(input.linkage, input.options);
   const double wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
-  fmt::print(stderr, "{}", warning_text(preparation));
+  print_err(warning_text(preparation));
   std::string text = preparation_text(line.inputs.front(), input.name, preparation, input.options);
   const bool is_ok = preparation.cause == Cause::ok;
   if (is_ok) text += values_text(preparation, input.options);
@@ -75,8 +75,8 @@ int run_statics(const CommandLine& line) {
     print_out(text);
   }
   if (!is_ok) {
-    fmt::print(stderr, "linkstudy: error: {}: {}\n", name_of(preparation.cause),
-               preparation.message);
+    print_err(
+        fmt::format("linkstudy: error: {}: {}\n", name_of(preparation.cause), preparation.message));
   }
   return is_ok ? kDone : kTooManyFailed;
 }

@@ -42,8 +42,10 @@ std::string state_text(const StudyStatus& status) {
 std::string to_text(const StudyStatus& status) {
   std::string text = summary_line("state", state_text(status));
   const bool is_budget = status.is_tune && !status.is_complete;
-  text += summary_line(
-      "done", fmt::format("{} of {}{}", status.done, is_budget ? "at most " : "", status.total));
+  const std::uint64_t failed = status.failed_count();
+  text += summary_line("finished", fmt::format("{} of {}{}", status.done + failed,
+                                               is_budget ? "at most " : "", status.total));
+  text += summary_line("ok", fmt::format("{}", status.done));
   for (const auto& [cause, count] : status.failed) {
     text += summary_line("failed", fmt::format("{} {}", count, name_of(cause)));
   }
@@ -57,6 +59,7 @@ std::string to_text(const StudyStatus& status) {
 
 int run_status(const CommandLine& line) {
   const StudyStatus status = read_status(line.inputs.front());
+  if (!status.dropped.empty()) print_err(fmt::format("linkstudy: warning: {}\n", status.dropped));
   print_out(line.json ? to_json(status) : to_text(status));
   return kDone;
 }

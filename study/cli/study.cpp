@@ -40,10 +40,13 @@ ResultsTableOptions choose_columns(const StudySession& session) {
 int finish(StudySession& session, StudyEnd end) {
   StudyRecord& record = session.record();
   // A study of which nothing came out is no success, however many failures are accepted.
-  if (end.code == kDone && record.failure_count() == record.evaluations().size()) {
+  if (end.code == kDone && !record.evaluations().empty() &&
+      record.failure_count() == record.evaluations().size()) {
     end.code = kTooManyFailed;
     end.status = "failed";
-    fmt::print(stderr, "linkstudy: error: every evaluation failed\n");
+    const auto& [id, first] = *record.evaluations().begin();
+    print_err(fmt::format("linkstudy: error: every evaluation failed; evaluation {}: {}{}{}\n", id,
+                          name_of(first.status), first.message.empty() ? "" : ": ", first.message));
   }
   if (session.line().json) {
     print_out(to_json(end, record));

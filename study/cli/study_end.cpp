@@ -1,4 +1,5 @@
 #include "study/cli/study_end.h"
+#include "study/cli/output.h"
 
 #include <fmt/format.h>
 
@@ -22,11 +23,12 @@ StudyEnd end_study(StudySession& session, const std::function<void()>& work) {
     message = fmt::format("linkstudy: error: {}\n", reason.what());
   }
   session.finish_progress();
-  fmt::print(stderr, "{}", message);
+  print_err(message);
   if (end.code == exit_resumable) {
     fmt::print(stderr, "linkstudy: interrupted; the same command continues\n");
   }
-  const bool is_partial = end.code == exit_resumable;
+  // Ended by failures with evaluations left is no complete study either.
+  const bool is_partial = end.code != kDone && !session.is_exhausted();
   end.digest = session.record().write(is_partial ? RunStatus::interrupted : RunStatus::complete);
   session.log().info("{}, results digest {}", end.status, end.digest);
   return end;

@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <cctype>
 
+#include "core/base/isa.h"
 #include "study/store/directory.h"
 #include "study/store/file.h"
 #include "study/store/results_file.h"
+#include "study/store/status.h"
+#include "study/store/store_error.h"
 
 namespace linkstudy {
 namespace {
@@ -18,8 +21,8 @@ constexpr std::chrono::seconds kFirstWrite{30};
 constexpr int kWriteShare = 50;
 
 // Makes the directory; the rest of the members follow it.
-const std::filesystem::path& prepared(const std::filesystem::path& directory) {
-  prepare_directory(directory);
+const std::filesystem::path& prepared(const std::filesystem::path& directory, bool fresh) {
+  prepare_directory(directory, fresh);
   return directory;
 }
 
@@ -29,6 +32,22 @@ bool was_begun_by_job(const std::filesystem::path& directory, const ProvenanceRo
   return std::ranges::any_of(rows, [&](const ProvenanceRow& row) {
     return row.job == now.job && row.restart < now.restart;
   });
+}
+
+// Evaluations of one study come from sets that round alike: with fused multiply-adds or without.
+void require_same_rounding(const JournalContents& contents, const ProvenanceRow& now,
+                           const std::filesystem::path& directory) {
+  if (contents.evaluations.empty() || contents.provenance.empty()) return;
+  const std::string& before = contents.provenance.back().simd;
+  const std::string baseline(name_of(InstructionSet::baseline));
+  if (before.empty() || (before == baseline) == (now.simd == baseline)) return;
+  if (summarize_status(contents, 0.0, 0.0).is_complete) return;
+  const bool is_choice = before == baseline;
+  throw StoreError(fmt::format(
+      "{}: {} evaluations were made with instruction set {}, this start has {}, which rounds "
+      "differently; {}, or overwrite them with --fresh",
+      directory.string(), contents.evaluations.size(), before, now.simd,
+      is_choice ? "continue with LINKSTUDY_SIMD=baseline" : "continue on a machine that has it"));
 }
 
 TraceSet to_trace_set(const std::string& base, std::int64_t id, const CaseTraces& traces) {
@@ -60,9 +79,10 @@ StudyRecord::StudyRecord(std::filesystem::path directory, const StudyIdentity& i
     : directory_(std::move(directory)),
       is_made_(!std::filesystem::exists(directory_)),
       keeps_own_job_(fresh && was_begun_by_job(directory_, identity.start)),
-      journal_(prepared(directory_), identity.input_sha256,
+      journal_(prepared(directory_, fresh), identity.input_sha256,
                fresh && !keeps_own_job_ ? OpenMode::fresh : OpenMode::resume),
       next_write_(Clock::now() + kFirstWrite) {
+  require_same_rounding(journal_.contents(), identity.start, directory_);
   is_resumed_ = journal_.contents().description.has_value();
   if (!is_resumed_) journal_.append(identity.description);
   for (const NamedText& text : identity.texts) journal_.append(text);

@@ -1,4 +1,5 @@
 #include "study/cli/study_session.h"
+#include "study/cli/output.h"
 
 #include <fmt/format.h>
 #include <spdlog/sinks/basic_file_sink.h>
@@ -41,7 +42,7 @@ int pass_gate(Transport& transport, const std::function<int()>& step) {
   if (agreed == kDone) return kDone;
   std::string first = failure.text;
   transport.broadcast(first);
-  if (transport.rank() == 0 || first.empty()) fmt::print(stderr, "{}", failure.text);
+  if (transport.rank() == 0 || first.empty()) print_err(failure.text);
   return agreed;
 }
 
@@ -194,6 +195,11 @@ class Launch {
                program_version(), revision, transport_.size(), transport_.size() == 1 ? "" : "s",
                transport_.nodes(), transport_.nodes() == 1 ? "" : "s", simd_text(),
                identity.input_sha256.substr(0, 12));
+    const std::string dropped = dropped_text(record_->journal().contents(), record_->directory());
+    if (!dropped.empty()) {
+      print_err(fmt::format("linkstudy: warning: {}\n", dropped));
+      log_->warn("{}", dropped);
+    }
     const std::string counts = counts_text(*record_, total_);
     fmt::print(stderr, "{}: {}\n", record_->directory().string(), counts);
     log_->info("{}", counts);
@@ -275,7 +281,7 @@ class Launch {
       code = work(*session_);
     } catch (...) {
       const Failure failure = describe_failure(std::current_exception());
-      fmt::print(stderr, "{}", failure.text);
+      print_err(failure.text);
       log_->error("{}", failure.text);
       code = failure.code;
     }
@@ -354,7 +360,12 @@ void StudySession::run_packs(const std::vector<std::vector<Point>>& packs) {
   if (packs.empty()) return;
   has_cancelled_ = false;
   std::vector<std::string> tasks;
-  for (const std::vector<Point>& pack : packs) tasks.push_back(encode_points(pack));
+  points_before_ = {0};
+  packs_taken_ = points_taken_ = 0;
+  for (const std::vector<Point>& pack : packs) {
+    tasks.push_back(encode_points(pack));
+    points_before_.push_back(points_before_.back() + pack.size());
+  }
   const RunOutcome outcome = pool_.run(
       std::move(tasks), [&](const TaskResult& task) { take_pack(packs[task.index], task); });
   record_.journal().sync();
@@ -364,7 +375,7 @@ void StudySession::run_packs(const std::vector<std::vector<Point>>& packs) {
 void StudySession::end_run(const RunOutcome& outcome) {
   abandoned_ = outcome.end == RunEnd::abandoned || outcome.end == RunEnd::no_rank;
   if (outcome.end == RunEnd::no_rank) {
-    fmt::print(stderr, "linkstudy: error: no rank is left that works\n");
+    print_err("linkstudy: error: no rank is left that works\n");
   }
   if (outcome.interrupted() || has_cancelled_) {
     log_.warn("interrupted: {}", outcome.end == RunEnd::no_rank       ? "no rank is left"
@@ -378,6 +389,8 @@ void StudySession::end_run(const RunOutcome& outcome) {
 // A pack that failed as a whole is left missing, so that its points are run alone; what was
 // cancelled is nobody's result and is left to the next start.
 void StudySession::take_pack(const std::vector<Point>& pack, const TaskResult& task) {
+  ++packs_taken_;
+  points_taken_ += pack.size();
   if (task.failed && pack.size() > 1) {
     log_.warn("{} evaluations from {} on: {}", pack.size(), pack[0].id, one_line(task.bytes));
     return;
@@ -426,10 +439,23 @@ void StudySession::check_failures() {
       fmt::format("{} evaluations failed, {} are accepted (max_failures)", failures_, limit));
 }
 
+// Packs are handed out in order.
+std::size_t StudySession::count_running() const {
+  if (points_before_.empty()) return 0;
+  const std::size_t handed_out =
+      std::min(packs_taken_ + pool_.in_flight(), points_before_.size() - 1);
+  return points_before_[handed_out] - std::min(points_taken_, points_before_[handed_out]);
+}
+
 void StudySession::tick() {
+  progress_.set_running(count_running());
   progress_.tick(Clock::now());
   record_.journal().sync_if_due();
   record_.write_if_due();
+}
+
+bool StudySession::is_exhausted() const {
+  return total_ > 0 && record_.evaluations().size() >= total_;
 }
 
 void StudySession::finish_progress() {
@@ -445,7 +471,7 @@ int run_session(const CommandLine& line, StudyKind kind, const SessionWork& work
     return Launch(line, kind, *transport, start).run(work);
   } catch (const std::exception& error) {
     // This rank cannot take part any more, and the others would wait for it.
-    fmt::print(stderr, "linkstudy: error: rank {}: {}\n", transport->rank(), error.what());
+    print_err(fmt::format("linkstudy: error: rank {}: {}\n", transport->rank(), error.what()));
     if (transport->size() > 1) transport->abort_all(kInternalError);
     return kInternalError;
   }

@@ -39,6 +39,8 @@ class StudySession {
   // From the pool's clock.
   void tick();
   void finish_progress();
+  // Whether nothing of a design is left to do; of a tune, which has none, never.
+  bool is_exhausted() const;
   // Tasks may still be running and are not waited for: cancelled in vain, or with lost ranks.
   bool is_abandoned() const { return abandoned_; }
 
@@ -49,6 +51,7 @@ class StudySession {
   void end_run(const RunOutcome& outcome);
   void take(const Evaluation& evaluation, const std::vector<CaseTraces>& traces);
   void check_failures();
+  std::size_t count_running() const;
 
   const CommandLine& line_;
   Evaluator& evaluator_;
@@ -59,6 +62,9 @@ class StudySession {
   std::uint64_t failures_ = 0;
   bool abandoned_ = false;
   bool has_cancelled_ = false;  // of the present packs
+  std::vector<std::size_t> points_before_;  // of the packs in hand: in those before each, and all
+  std::size_t packs_taken_ = 0;
+  std::size_t points_taken_ = 0;
   Progress progress_;
   std::string stop_reason_;
 };

@@ -44,6 +44,7 @@ class TuningRun {
     Answer answer;
     answer.id = id;
     answer.status = evaluation.status;
+    answer.message = evaluation.message;
     answer.step = std::get<double>(evaluation.point.values.back());
     answer.h_omega = evaluator.worst(RunNumber::h_omega_max, evaluation.responses);
     answer.step_limit = evaluator.worst(RunNumber::step_limit, evaluation.responses);

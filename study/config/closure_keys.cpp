@@ -175,8 +175,8 @@ void add_closure_rows(Rows& rows) {
       {.path = "closure.*.name", .type = name, .meaning = "name of the closure", .required = true});
   rows.push_back({.path = "closure.*.type",
                   .type = word,
-                  .meaning = "kind of joint; axis (or normal of planar) along local x, universal: "
-                             "x of first and y of second",
+                  .meaning = "kind of joint; axis (or normal of planar) along local x, not z as in "
+                             "the tree; universal: x of first and y of second",
                   .required = true,
                   .words = {"spherical", "revolute", "universal", "prismatic", "cylindrical",
                             "planar", "fixed"}});

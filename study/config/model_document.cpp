@@ -132,8 +132,13 @@ std::optional<ModelInput> read_model_file(const ModelDocument& document,
 std::optional<Parameter> parameter_for(const ModelDocument& document, const std::string& path) {
   const KeyRow* row = find_row(document.tree(), model_schema(), path);
   if (row == nullptr || !is_single_value(row->type)) return std::nullopt;
-  const std::string unit = unit_of_path(document.tree(), row->unit, path).value_or(std::string());
-  return Parameter{path, unit == "1" ? std::string() : unit, row->meaning};
+  std::optional<std::string> unit;
+  for (const std::string& one : expand_path(document.tree(), model_schema(), path)) {
+    const auto own = unit_of_path(document.tree(), row->unit, one).value_or(std::string());
+    if (unit.value_or(own) != own) return std::nullopt;
+    unit = own;
+  }
+  return Parameter{path, unit == "1" ? std::string() : *unit, row->meaning};
 }
 
 }  // namespace linkstudy

@@ -149,11 +149,19 @@ void add_joint_rows(Rows& rows) {
                   .standard = "{}"});
   rows.push_back({.path = "joint.*.initial.position",
                   .type = numbers,
-                  .meaning = "start coordinates, possibly approximate; default: all zero",
+                  .meaning = "start coordinates, possibly approximate, in the order of the type: "
+                             "revolute, screw: angle about z; prismatic: shift along z; "
+                             "cylindrical: angle about z, shift along z; universal: angle about z, "
+                             "angle about the new y; planar: shift along x, shift along y, angle "
+                             "about z; spherical: psi about z, theta about the new y, phi about "
+                             "the new x, or the quaternion w x y z; free: shifts along x, y, z, "
+                             "then as spherical; default: all zero",
                   .unit = "rad|m|1"});
   rows.push_back({.path = "joint.*.initial.velocity",
                   .type = numbers,
-                  .meaning = "start velocities; default: all zero",
+                  .meaning = "start velocities, the rates of the coordinates; of a quaternion the "
+                             "angular velocity in the axes of the child's joint frame (body "
+                             "frame), three numbers; default: all zero",
                   .unit = "rad/s|m/s"});
   rows.push_back({.path = "joint.*.initial.hold",
                   .type = boolean,

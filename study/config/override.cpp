@@ -144,6 +144,55 @@ class Setter {
   Tree* element_ = nullptr;  // the joint, link, ... the path runs through
 };
 
+// A part of the path after another, with every element in place of *.
+class Expander {
+ public:
+  explicit Expander(const std::string& path) : parts_(split_path(path)) {}
+
+  std::vector<std::string> run(const Tree& document, const KeyNode& schema) {
+    expand(&document, &schema, 0, {});
+    return std::move(paths_);
+  }
+
+ private:
+  // Where the tree or the tables of keys end the rest is taken as it stands: what is wrong with it
+  // is said by who uses it.
+  void expand(const Tree* tree, const KeyNode* node, std::size_t at, const std::string& before) {
+    if (at == parts_.size()) {
+      paths_.push_back(before);
+      return;
+    }
+    const std::string here = before.empty() ? parts_[at] : before + "." + parts_[at];
+    const KeyNode* child = node != nullptr ? node->find(parts_[at]) : nullptr;
+    const Tree* value = tree != nullptr && tree->is(Kind::table) ? tree->find(parts_[at]) : nullptr;
+    const bool is_list = child != nullptr && child->row.type == KeyType::tables;
+    if (!is_list || at + 1 == parts_.size()) return expand(value, child, at + 1, here);
+    const std::string& element = parts_[at + 1];
+    if (value == nullptr || !value->is(Kind::array)) return;
+    bool is_found = element == "*";
+    for (std::size_t i = 0; i < value->items.size(); ++i) {
+      const Tree* own = value->items[i].find("name");
+      const bool is_named = own != nullptr && own->is(Kind::text);
+      const std::string name = is_named ? own->text : std::to_string(i);
+      if (element != "*" && element != name && element != std::to_string(i)) continue;
+      is_found = true;
+      expand(&value->items[i], child->element(), at + 2, here + "." + name);
+    }
+    if (!is_found) expand(nullptr, nullptr, at + 2, here + "." + element);
+  }
+
+  std::vector<std::string> parts_;
+  std::vector<std::string> paths_;
+};
+
+bool set_everywhere(Tree& document, const KeyNode& schema, const Override& override) {
+  const std::vector<std::string> paths = expand_path(document, schema, override.path);
+  return !paths.empty() && std::ranges::all_of(paths, [&](const std::string& path) {
+    const Override one{path, override.value, override.origin};
+    return Setter(document, schema, one).run();
+  });
+}
+
 void add_value_paths(const Tree& table, const KeyNode& node, const std::string& path,
                      std::vector<std::string>& paths) {
   for (const KeyNode& child : node.children) {
@@ -222,6 +271,12 @@ std::vector<Override> flatten_overrides(const Tree& set) {
   return result;
 }
 
+std::vector<std::string> expand_path(const Tree& document, const KeyNode& schema,
+                                     const std::string& path) {
+  if (path.find('*') == std::string::npos) return {path};
+  return Expander(path).run(document, schema);
+}
+
 bool set_value(Tree& document, const KeyNode& schema, const Override& override,
                Diagnostics& diagnostics) {
   if (override.path == "format" || override.path == "kind") {
@@ -230,7 +285,7 @@ bool set_value(Tree& document, const KeyNode& schema, const Override& override,
     return false;
   }
   Tree trial = document;
-  if (Setter(trial, schema, override).run()) {
+  if (set_everywhere(trial, schema, override)) {
     document = std::move(trial);
     return true;
   }
@@ -252,7 +307,7 @@ const KeyRow* find_row(const Tree& document, const KeyNode& schema, const std::s
   }
   Tree trial = document;
   const Override probe{path, Tree::make_number(0.0), {}};
-  return Setter(trial, schema, probe).run() ? &node->row : nullptr;
+  return set_everywhere(trial, schema, probe) ? &node->row : nullptr;
 }
 
 std::vector<std::string> value_paths(const Tree& document, const KeyNode& schema) {

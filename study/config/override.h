@@ -27,13 +27,19 @@ Override make_override(const std::string& path, const Value& value);
 // The entries of a `set` table; nested tables are read as dotted paths.
 std::vector<Override> flatten_overrides(const Tree& set);
 
-// Writes the value into the document. A number becomes { all = number } when a component of it is
-// set; setting one row of a group (damping, damping_ratio) removes the others; absent tables and
-// arrays with a default are made. False when it was reported: the path names nothing.
+// A path with * for the element of [[tables]] as one path for each element of the document
+// ("closure.*.sde.stiffness": that of every closure); without * itself.
+std::vector<std::string> expand_path(const Tree& document, const KeyNode& schema,
+                                     const std::string& path);
+
+// Writes the value into the document, at every place of a path with *. A number becomes { all =
+// number } when a component of it is set; setting one row of a group (damping, damping_ratio)
+// removes the others; absent tables and arrays with a default are made. False when it was reported:
+// the path names nothing.
 bool set_value(Tree& document, const KeyNode& schema, const Override& override,
                Diagnostics& diagnostics);
 
-// The row of a path that exists in the document, else nothing.
+// The row of a path that exists in the document (with *: everywhere), else nothing.
 const KeyRow* find_row(const Tree& document, const KeyNode& schema, const std::string& path);
 
 // Every path of one value that the document has, with the names written in it.

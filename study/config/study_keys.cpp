@@ -21,15 +21,16 @@ void add_head_rows(Rows& rows, const std::string& kind) {
   rows.push_back({.path = "reference.model",
                   .type = text,
                   .meaning = "another model file; default: the same model"});
-  rows.push_back({.path = "reference.set",
-                  .type = overrides,
-                  .meaning = "model values of the reference: path = value",
-                  .standard = "{}"});
+  rows.push_back(
+      {.path = "reference.set",
+       .type = overrides,
+       .meaning = "model values of the reference: path = value; * for a name: everywhere",
+       .standard = "{}"});
   rows.push_back(
       {.path = "base", .type = table, .meaning = "the run that is varied", .standard = "{}"});
   rows.push_back({.path = "base.set",
                   .type = overrides,
-                  .meaning = "model values of every case: path = value",
+                  .meaning = "model values of every case: path = value; * for a name: everywhere",
                   .standard = "{}"});
 }
 
@@ -45,7 +46,9 @@ void add_window_row(Rows& rows, const std::string& path) {
 void add_parameter_row(Rows& rows, const std::string& path) {
   rows.push_back({.path = path + ".parameter",
                   .type = text,
-                  .meaning = "path in the model, such as closure.S.sde.stiffness",
+                  .meaning =
+                      "path in the model, such as closure.S.sde.stiffness; * for a name: the "
+                      "same value at every place (closure.*.sde.stiffness)",
                   .required = true});
 }
 
@@ -89,8 +92,10 @@ void add_output_rows(Rows& rows) {
   rows.push_back({.path = "response", .type = tables, .meaning = "numbers kept of every run"});
   rows.push_back(
       {.path = "response.*.name", .type = name, .meaning = "name of the number", .required = true});
-  rows.push_back(
-      {.path = "response.*.signal", .type = text, .meaning = "channel", .required = true});
+  rows.push_back({.path = "response.*.signal",
+                  .type = text,
+                  .meaning = "channel or vector (linkstudy describe channels)",
+                  .required = true});
   rows.push_back({.path = "response.*.reduce",
                   .type = word,
                   .meaning = "what is kept of its course",
@@ -98,8 +103,10 @@ void add_output_rows(Rows& rows) {
                   .words = {"max", "min", "max_abs", "rms", "mean", "last"}});
   add_window_row(rows, "response.*");
   rows.push_back({.path = "trace", .type = tables, .meaning = "time histories kept"});
-  rows.push_back(
-      {.path = "trace.*.signals", .type = texts, .meaning = "channels", .required = true});
+  rows.push_back({.path = "trace.*.signals",
+                  .type = texts,
+                  .meaning = "channels, or groups such as closure.S.force, joint.A, energy",
+                  .required = true});
   rows.push_back({.path = "load_case",
                   .type = tables,
                   .meaning = "model values that are run beside each other, each case with all"});
@@ -109,7 +116,7 @@ void add_output_rows(Rows& rows) {
                   .required = true});
   rows.push_back({.path = "load_case.*.set",
                   .type = overrides,
-                  .meaning = "model values: path = value",
+                  .meaning = "model values: path = value; * for a name: everywhere",
                   .standard = "{}"});
 }
 

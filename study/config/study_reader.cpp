@@ -139,6 +139,14 @@ class StudyReader {
     if (!entry.is(Kind::table) || path == nullptr || !path->is(Kind::text)) return;
     const std::optional<Parameter> parameter = parameter_for(document, path->text);
     const KeyRow* row = find_row(document.tree(), model_schema(), path->text);
+    if (row != nullptr && !parameter && path->text.find('*') != std::string::npos) {
+      diagnostics_.add(path->at,
+                       fmt::format("parameter '{}' names values of several units, or none that "
+                                   "one number can have",
+                                   path->text),
+                       "give each its own entry");
+      return;
+    }
     if (!parameter || row == nullptr) {
       diagnostics_.add(
           path->at,

@@ -2,68 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <numbers>
+#include <utility>
 
 namespace linkstudy {
 namespace {
-
-struct Symbol {
-  std::string_view name;
-  bool takes_prefix;
-  Unit unit;
-};
-
-struct Prefix {
-  std::string_view name;
-  double factor;
-};
-
-constexpr double kPi = std::numbers::pi;
-
-// Dimensions: m, kg, s, rad.
-constexpr Symbol kSymbols[] = {
-    {"m", true, {1.0, {1, 0, 0, 0}}},
-    {"g", true, {1.0e-3, {0, 1, 0, 0}}},
-    {"s", true, {1.0, {0, 0, 1, 0}}},
-    {"rad", true, {1.0, {0, 0, 0, 1}}},
-    {"N", true, {1.0, {1, 1, -2, 0}}},
-    {"J", true, {1.0, {2, 1, -2, 0}}},
-    {"W", true, {1.0, {2, 1, -3, 0}}},
-    {"Pa", true, {1.0, {-1, 1, -2, 0}}},
-    {"Hz", true, {1.0, {0, 0, -1, 0}}},
-    {"bar", true, {1.0e5, {-1, 1, -2, 0}}},
-    {"t", true, {1.0e3, {0, 1, 0, 0}}},
-    {"Nm", true, {1.0, {2, 1, -2, 0}}},
-    {"deg", false, {kPi / 180.0, {0, 0, 0, 1}}},
-    {"rev", false, {2.0 * kPi, {0, 0, 0, 1}}},
-    {"rpm", false, {kPi / 30.0, {0, 0, -1, 1}}},
-    {"min", false, {60.0, {0, 0, 1, 0}}},
-    {"h", false, {3600.0, {0, 0, 1, 0}}},
-    {"%", false, {0.01, {0, 0, 0, 0}}},
-    {"\u00B0", false, {kPi / 180.0, {0, 0, 0, 1}}},
-};
-
-constexpr Prefix kPrefixes[] = {
-    {"p", 1e-12}, {"n", 1e-9}, {"u", 1e-6}, {"\u00B5", 1e-6}, {"\u03BC", 1e-6},
-    {"m", 1e-3},  {"c", 1e-2}, {"d", 1e-1}, {"da", 1e1},      {"h", 1e2},
-    {"k", 1e3},   {"M", 1e6},  {"G", 1e9},  {"T", 1e12},
-};
-
-std::optional<Unit> find_symbol(std::string_view name) {
-  for (const Symbol& symbol : kSymbols) {
-    if (symbol.name == name) return symbol.unit;
-  }
-  for (const Prefix& prefix : kPrefixes) {
-    if (!name.starts_with(prefix.name)) continue;
-    for (const Symbol& symbol : kSymbols) {
-      if (!symbol.takes_prefix || symbol.name != name.substr(prefix.name.size())) continue;
-      return Unit{prefix.factor * symbol.unit.factor, symbol.unit.dimensions};
-    }
-  }
-  return std::nullopt;
-}
 
 constexpr int kLargestPower = 9;
 constexpr int kDeepestBracket = 16;
@@ -77,11 +22,11 @@ class UnitParser {
     if (unit && at_ < text_.size()) unit = fail(fmt::format("'{}'", text_.substr(at_)));
     return unit;
   }
-  const std::string& fault() const { return fault_; }
+  const UnitFault& fault() const { return fault_; }
 
  private:
-  std::optional<Unit> fail(std::string fault) {
-    if (fault_.empty()) fault_ = std::move(fault);
+  std::optional<Unit> fail(std::string part, std::string hint = {}) {
+    if (fault_.part.empty()) fault_ = {std::move(part), std::move(hint)};
     return std::nullopt;
   }
 
@@ -102,12 +47,26 @@ class UnitParser {
       skip_blanks();
       if (at_ == text_.size() || text_[at_] == ')') break;
       const bool divides = accept("/");
-      if (!divides && !accept("*")) accept("\u00B7");
+      if (!divides) accept_product();
       const std::optional<Unit> right = factor(depth);
       if (!right) return std::nullopt;
       left = combine(*left, *right, divides ? -1 : 1);
     }
     return left;
+  }
+
+  // At most one mark; two factors side by side are a product as well.
+  void accept_product() {
+    for (const std::string_view mark : {"*", ".", "\u00B7", "\u22C5"}) {
+      if (accept(mark)) return;
+    }
+    if (is_hyphen(at_)) ++at_;
+  }
+
+  bool is_hyphen(std::size_t at) const {
+    const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+    return at > 0 && at + 1 < text_.size() && text_[at] == '-' && is_letter(text_[at - 1]) &&
+           is_letter(text_[at + 1]);
   }
 
   static Unit combine(const Unit& a, const Unit& b, int power) {
@@ -136,26 +95,38 @@ class UnitParser {
     skip_blanks();
     const std::size_t start = at_;
     if (accept("1")) return Unit{};
-    const auto ends = [](std::string_view rest) {
-      static constexpr std::string_view kMarks[] = {" ", "*",      "/",      "^",     "(",
-                                                    ")", "\u00B7", "\u00B2", "\u00B3"};
-      for (const std::string_view mark : kMarks) {
-        if (rest.starts_with(mark)) return true;
-      }
-      return false;
-    };
-    while (at_ < text_.size() && !ends(text_.substr(at_))) ++at_;
-    const std::string_view name = text_.substr(start, at_ - start);
-    std::optional<Unit> unit = find_symbol(name);
-    if (!unit) return fail(fmt::format("'{}'", name));
+    while (at_ < text_.size() && !ends_symbol()) ++at_;
+    const std::string name(text_.substr(start, at_ - start));
+    std::optional<Unit> unit = find_unit_symbol(name);
+    if (!unit) return fail(fmt::format("'{}'", name), hint_for(name));
     return unit;
+  }
+
+  bool ends_symbol() const {
+    static constexpr std::string_view kMarks[] = {" ", "*",      "/",      ".",      "^",     "(",
+                                                  ")", "\u00B7", "\u22C5", "\u00B2", "\u00B3"};
+    const std::string_view rest = text_.substr(at_);
+    return is_hyphen(at_) || std::ranges::any_of(kMarks, [&](std::string_view mark) {
+             return rest.starts_with(mark);
+           });
+  }
+
+  // "s2" and "s-1" lack the mark of a power.
+  static std::string hint_for(const std::string& name) {
+    const std::size_t digits = name.find_first_of("-0123456789");
+    if (digits != std::string::npos && digits > 0 && find_unit_symbol(name.substr(0, digits))) {
+      return fmt::format("a power is written {}^{}", name.substr(0, digits), name.substr(digits));
+    }
+    const std::string near = nearest_unit(name);
+    return near.empty() ? near : fmt::format("did you mean {}?", near);
   }
 
   std::optional<int> power() {
     if (text_.substr(at_).starts_with("\u00B2")) return at_ += 2, 2;
     if (text_.substr(at_).starts_with("\u00B3")) return at_ += 2, 3;
-    if (!text_.substr(at_).starts_with("^")) return 1;
-    const char* begin = text_.data() + at_ + 1;
+    const bool is_double = text_.substr(at_).starts_with("**");
+    if (!is_double && !text_.substr(at_).starts_with("^")) return 1;
+    const char* begin = text_.data() + at_ + (is_double ? 2 : 1);
     int value = 0;
     const auto [end, error] = std::from_chars(begin, text_.data() + text_.size(), value);
     if (error != std::errc() || std::abs(value) > kLargestPower) return std::nullopt;
@@ -165,7 +136,7 @@ class UnitParser {
 
   std::string_view text_;
   std::size_t at_ = 0;
-  std::string fault_;
+  UnitFault fault_;
 };
 
 std::string_view trimmed(std::string_view text) {
@@ -176,7 +147,7 @@ std::string_view trimmed(std::string_view text) {
 
 }  // namespace
 
-std::optional<Unit> parse_unit(std::string_view text, std::string* fault) {
+std::optional<Unit> parse_unit(std::string_view text, UnitFault* fault) {
   if (trimmed(text).empty()) return Unit{};
   UnitParser parser(trimmed(text));
   std::optional<Unit> unit = parser.run();
@@ -197,6 +168,17 @@ std::optional<WrittenQuantity> split_quantity(std::string_view text) {
 std::optional<double> convert_unit(double value, const Unit& from, const Unit& to) {
   if (from.dimensions != to.dimensions) return std::nullopt;
   return from.factor == to.factor ? value : value * (from.factor / to.factor);
+}
+
+std::string explain_angle(const Unit& from, const Unit& to) {
+  std::array<int, 4> rest = to.dimensions;
+  for (std::size_t i = 0; i < 4; ++i) rest[i] -= from.dimensions[i];
+  const int angles = std::exchange(rest[3], 0);
+  if (angles == 0 || rest != std::array<int, 4>{}) return {};
+  constexpr std::array<int, 4> kRate = {0, 0, -1, 0};
+  if (from.dimensions == kRate) return "a speed of turn is written rev/s, rpm, rad/s or deg/s";
+  return fmt::format("angles are a dimension of their own: write it in {}",
+                     dimension_text(to.dimensions));
 }
 
 }  // namespace linkstudy

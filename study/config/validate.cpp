@@ -412,10 +412,11 @@ bool convert_text(Tree& value, const KeyRow& row, const std::string& subject,
         fmt::format("{} must be {}, got the text {} without a unit", subject, wanted, shown(value)),
         "remove the quotes, or add the unit");
   }
-  std::string fault;
+  UnitFault fault;
   const std::optional<Unit> unit = parse_unit(quantity->unit, &fault);
   if (!unit) {
-    return fail(fmt::format("{}: {} is not a unit, got {}", subject, fault, shown(value)), example);
+    return fail(fmt::format("{}: {} is not a unit, got {}", subject, fault.part, shown(value)),
+                fault.hint.empty() ? example + "; linkstudy describe units" : fault.hint);
   }
   for (const std::string& alternative : unit_alternatives(row.unit)) {
     const std::optional<double> converted =
@@ -425,7 +426,12 @@ bool convert_text(Tree& value, const KeyRow& row, const std::string& subject,
     value.text = alternative;
     return true;
   }
-  return fail(fmt::format("{} must be {}, got {}", subject, wanted, shown(value)), example);
+  std::string angle;
+  for (const std::string& alternative : unit_alternatives(row.unit)) {
+    if (angle.empty()) angle = explain_angle(*unit, *parse_unit(alternative));
+  }
+  return fail(fmt::format("{} must be {}, got {}", subject, wanted, shown(value)),
+              angle.empty() ? example : angle);
 }
 
 }  // namespace

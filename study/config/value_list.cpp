@@ -62,7 +62,8 @@ class ValueLister {
     const double n = count.is_numeric() ? count.as_number() : 0.0;
     if (!(n >= 2.0 && n <= kMostValues && n == std::floor(n))) {
       fail(count,
-           fmt::format("the count of {} must be an integer of at least 2, got {}", form,
+           fmt::format("the count of {} must be an integer of at {}, got {}", form,
+                       n > kMostValues ? fmt::format("most {:.0f}", kMostValues) : "least 2",
                        shown(count)),
            fmt::format("{} = [first, last, count]", form));
       return {};

@@ -4,15 +4,29 @@
 
 #include <algorithm>
 
+#include "core/simulation/channel_kinds.h"
 #include "core/topology/nearest_name.h"
 
 namespace linkstudy {
 namespace {
 
+enum class Groups {
+  vectors,    // "closure.S.force": components of one quantity, which share a norm
+  everything  // "closure.S"
+};
+
 std::vector<Channel> find_signal(const std::vector<Channel>& channels, const std::string& signal,
-                                 const char* where, const Location& at, Diagnostics& diagnostics) {
-  std::vector<Channel> found = find_channels(channels, signal);
+                                 const char* where, const Location& at, Diagnostics& diagnostics,
+                                 Groups groups = Groups::vectors) {
+  std::vector<Channel> found = groups == Groups::vectors ? find_channels(channels, signal)
+                                                         : find_channel_group(channels, signal);
   if (!found.empty()) return found;
+  const std::vector<Channel> under = find_channel_group(channels, signal);
+  if (!under.empty()) {
+    diagnostics.add(at, fmt::format("the signal '{}' is a group of several quantities", signal),
+                    fmt::format("choose one: {}", fmt::join(signal_names(under), ", ")));
+    return {};
+  }
   std::vector<std::string> names = signal_names(channels);
   for (const Channel& channel : channels) names.push_back(channel.name);
   diagnostics.add(at, fmt::format("there is no signal '{}' in {}", signal, where),
@@ -53,8 +67,8 @@ StudySignals find_case_signals(const StudyInput& input, const std::vector<Channe
         find_signal(channels, response.signal, "the model", response.at, diagnostics));
   }
   for (const TraceInput& trace : input.trace) {
-    add_once(signals.trace,
-             find_signal(channels, trace.signal, "the model", trace.at, diagnostics));
+    add_once(signals.trace, find_signal(channels, trace.signal, "the model", trace.at, diagnostics,
+                                        Groups::everything));
   }
   return signals;
 }
@@ -68,7 +82,7 @@ StudySignals find_reference_signals(const StudyInput& input, const std::vector<C
     add_once(signals.trace, signals.match.back());
   }
   for (const TraceInput& trace : input.trace) {
-    add_once(signals.trace, find_channels(channels, trace.signal));
+    add_once(signals.trace, find_channel_group(channels, trace.signal));
   }
   return signals;
 }

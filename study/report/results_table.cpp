@@ -85,7 +85,7 @@ bool has_content(const DataColumn& column) {
 std::vector<const DataColumn*> default_columns(const DataGroup& study) {
   std::vector<const DataColumn*> columns;
   for (const DataColumn& column : study.columns) {
-    const bool optional = column.role == "message" || column.role == "parent";
+    const bool optional = column.role == "parent";
     if (column.role != "attempts" && (!optional || has_content(column))) {
       columns.push_back(&column);
     }

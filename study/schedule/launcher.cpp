@@ -69,13 +69,13 @@ void check_reachable(const Launcher& launcher) {
       launcher.rank);
 }
 
-void check_size(const Launcher& launcher, int communicator_size) {
+void check_size(const Launcher& launcher, int communicator_size, const std::string& library) {
   if (communicator_size == launcher.size) return;
   throw LaunchError(
       fmt::format("{} started {} processes, but this one sees {} (each would do the whole study); "
-                  "start them with the mpirun of the MPI library this program is built with: Open "
-                  "MPI, or 'srun --mpi=pmix' under Slurm",
-                  launcher.name, launcher.size, communicator_size),
+                  "there seem to be two MPI installations: this program uses {}; start it with the "
+                  "mpirun of that one ('mpirun --version' tells), or 'srun --mpi=pmix' under Slurm",
+                  launcher.name, launcher.size, communicator_size, library),
       launcher.rank);
 }
 

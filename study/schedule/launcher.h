@@ -37,7 +37,9 @@ class LaunchError : public std::runtime_error {
 void check_reachable(const Launcher& launcher);
 
 // Throws LaunchError when the launcher started n > 1 but the communicator has another size.
-void check_size(const Launcher& launcher, int communicator_size);
+// `library` is the MPI library in use.
+void check_size(const Launcher& launcher, int communicator_size,
+                const std::string& library = "Open MPI");
 
 // Throws LaunchError when the launcher started n > 1 of a verb that works in one process.
 void check_alone(const Launcher& launcher, const std::string& verb);

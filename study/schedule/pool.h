@@ -21,6 +21,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -90,6 +91,10 @@ class Pool {
   Pool& operator=(const Pool&) = delete;
 
   int ranks() const { return transport_.size(); }
+  // Rank 0: tasks handed out and not answered.
+  std::size_t in_flight() const {
+    return std::accumulate(outstanding_.begin(), outstanding_.end(), std::size_t{0});
+  }
 
   // Rank 0. Calls on_result once per task, in order of arrival, unless the run ends early. What
   // on_result throws ends the run and goes on to the caller; the pool stays usable.

@@ -36,6 +36,7 @@ std::string rate_text(double rate) {
 std::string tail(const ProgressState& state, const char* separator) {
   std::string text;
   if (state.failed > 0) text += fmt::format("{}{} failed", separator, state.failed);
+  if (state.running > 0) text += fmt::format("{}{} running", separator, state.running);
   const double rate = find_rate(state);
   if (rate > 0.0) text += separator + rate_text(rate);
   if (state.done >= state.total)
@@ -119,6 +120,7 @@ void Progress::tick(Time now) {
 }
 
 void Progress::finish(Time now) {
+  state_.running = 0;
   write(now, true);
 }
 

@@ -1,7 +1,7 @@
 // How far a study is, for people: a bar that is redrawn on a terminal, or in a batch log one short
 // line at most every 10 s and a last one. Everything goes to standard error.
-//   [#########-----------]  412/1000   41%  3 failed  210/s  2m48s left
-//   412 of 1000 (41%), 3 failed, 210/s, 2m48s left
+//   [#########-----------]  412/1000   41%  3 failed  15 running  210/s  2m48s left
+//   412 of 1000 (41%), 3 failed, 15 running, 210/s, 2m48s left
 #pragma once
 
 #include <chrono>
@@ -30,6 +30,7 @@ struct ProgressState {
   std::size_t failed = 0;
   std::size_t earlier = 0;  // done before this start: no part of the rate
   double elapsed_s = 0.0;   // since this start
+  std::size_t running = 0;  // handed out and not answered
 };
 
 // "0.4s", "12s", "2m48s", "3h05m", "2d04h".
@@ -50,6 +51,7 @@ class Progress {
 
   // Counts of this and earlier starts, or nothing new, so that the clock runs on.
   void update(std::size_t done, std::size_t failed, Time now);
+  void set_running(std::size_t running) { state_.running = running; }
   void tick(Time now);
   // The last line, whatever the time.
   void finish(Time now);

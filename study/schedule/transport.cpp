@@ -47,7 +47,7 @@ std::unique_ptr<Transport> make_transport() {
   if (launcher.size <= 1) return std::make_unique<LocalTransport>();
   check_reachable(launcher);
   auto session = std::make_unique<MpiSession>();
-  check_size(launcher, session->size());
+  check_size(launcher, session->size(), mpi_library_version());
   return session;
 }
 

@@ -35,9 +35,24 @@ void require_ours(const fs::path& directory) {
   }
 }
 
+bool has_header(const fs::path& journal) {
+  return fs::exists(journal) && fs::file_size(journal) >= kJournalHeaderSize;
+}
+
+// A killed start leaves a torn header behind, but no results: those are made from the journal.
+void require_no_results(const fs::path& directory) {
+  for (const char* name : {kResultsName, kReportName}) {
+    if (!fs::exists(directory / name)) continue;
+    throw StoreError(
+        fmt::format("{}: holds results ({}) but no {} to continue them from; choose another "
+                    "directory with -o or overwrite them with --fresh",
+                    directory.string(), name, kJournalName));
+  }
+}
+
 }  // namespace
 
-void prepare_directory(const fs::path& directory) {
+void prepare_directory(const fs::path& directory, bool fresh) {
   try {
     if (fs::exists(directory) && !fs::is_directory(directory)) {
       throw StoreError(
@@ -47,6 +62,7 @@ void prepare_directory(const fs::path& directory) {
     if (!fs::exists(directory / kJournalName)) {
       require_ours(directory);
     }
+    if (!fresh && !has_header(directory / kJournalName)) require_no_results(directory);
   } catch (const fs::filesystem_error& error) {
     throw StoreError(fmt::format("{}: cannot use this directory: {}; choose another with -o",
                                  directory.string(), error.code().message()));

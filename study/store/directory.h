@@ -13,7 +13,9 @@ inline constexpr const char* kLogName = "linkstudy.log";
 // Creates the directory, or makes sure that a study may live in what is there: it is empty, holds a
 // journal, or holds nothing but files of a study that ended before its journal began. Anything else
 // is refused with StoreError, and nothing is touched: a study never mixes with other files.
-void prepare_directory(const std::filesystem::path& directory);
+// Results without a journal (or with one that has lost its header) are refused too, unless `fresh`:
+// they would be overwritten and not continued.
+void prepare_directory(const std::filesystem::path& directory, bool fresh = false);
 
 // Removes what was computed from the journal, and left-over temporary files; not the log.
 void remove_derived_files(const std::filesystem::path& directory);

@@ -128,6 +128,14 @@ JournalContents read_journal(const std::filesystem::path& directory) {
   return parse_journal(read_file(path), path);
 }
 
+std::string dropped_text(const JournalContents& contents, const std::filesystem::path& directory) {
+  if (contents.dropped_bytes == 0) return {};
+  return fmt::format(
+      "{}: the last {} bytes are torn or damaged and count as not there; {} evaluations are left, "
+      "and what is missing is run again",
+      (directory / kJournalName).string(), contents.dropped_bytes, contents.evaluations.size());
+}
+
 Journal::Journal(const std::filesystem::path& directory, const std::string& input_sha256,
                  OpenMode mode)
     : file_(open_and_lock(directory)) {

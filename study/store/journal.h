@@ -39,6 +39,10 @@ JournalContents parse_journal(std::string_view bytes, const std::filesystem::pat
 // Reads DIR/journal.bin of a dead or a running study; takes no lock.
 JournalContents read_journal(const std::filesystem::path& directory);
 
+// What was lost, in a sentence; empty where nothing was. The evaluations that are missing are run
+// again when the study is continued.
+std::string dropped_text(const JournalContents& contents, const std::filesystem::path& directory);
+
 enum class OpenMode {
   resume,  // continue what is there, if anything
   fresh    // overwrite it, and remove what was derived from it

@@ -86,6 +86,7 @@ StudyStatus read_status(const std::filesystem::path& directory) {
   StudyStatus status = summarize_status(
       contents, std::chrono::duration<double>(written.time_since_epoch()).count(), unix_time_s());
   status.running = is_locked(path);
+  if (!status.running) status.dropped = dropped_text(contents, directory);
   return status;
 }
 

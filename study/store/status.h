@@ -23,6 +23,7 @@ struct StudyStatus {
   std::string digest;            // of the results so far
   double started_unix_s = 0.0;   // first start
   double last_write_age_s = 0.0;
+  std::string dropped;  // dropped_text of a study that does not run
   // Time left at the rate of the latest start: (total - finished) (t_last_write - t_start) / n,
   // n the evaluations since that start: of a tune the most it can be. Empty before the first one.
   std::optional<double> eta_s;

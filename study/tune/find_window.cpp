@@ -165,9 +165,9 @@ Window find_window(EvaluationLog& log, double low) {
       feasible =
           value < *failing && feasible_at_base(log, value) ? std::max(feasible, value) : feasible;
     }
-    const Bracket bracket = search_section(
-        log, {*failing, feasible},
-        {WindowEnd::upper, Steps::base, log.options().upper_resolution, "upper_end"});
+    const Bracket bracket =
+        search_section(log, {*failing, feasible},
+                       {WindowEnd::upper, Steps::base, log.options().resolution, "upper_end"});
     window.high = bracket.feasible;
     window.high_limited_by = find_high_limit(log.find({bracket.failing}, 1.0)->answer);
   }

@@ -18,8 +18,9 @@ std::optional<double> find_lowest_candidate(const EvaluationLog& log);
 // accepted value, or the candidate closed on when none was accepted.
 double descend(EvaluationLog& log, double candidate);
 
-// Closes on the upper end of the window that starts at `low`. Failing values that have a matching
-// one within the neighbourhood above them are taken for noise and do not end the window.
+// Closes on the upper end of the window that starts at `low`, to the resolution too. Failing values
+// that have a matching one within the neighbourhood above them are taken for noise and do not end
+// the window.
 Window find_window(EvaluationLog& log, double low);
 
 }  // namespace linkstudy::tuning

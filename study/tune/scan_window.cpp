@@ -95,6 +95,20 @@ double known_log_ratio(const EvaluationLog& log, double value) {
   return compute_log_ratio(log.ratio(value, 1.0).value());
 }
 
+// A cause is a cliff: how high the ratio would be behind it bounds nothing, only the other end
+// does.
+IntervalBound bound_beside_failure(double a, double log_ratio_a, double b, double log_ratio_b) {
+  const double width = std::log10(b / a);
+  const double middle = std::sqrt(a) * std::sqrt(b);
+  if (log_ratio_b >= 12.0) {
+    return {log_ratio_a - kSteepestFall * width, middle};
+  }
+  if (log_ratio_a >= 12.0) {
+    return {log_ratio_b - kSteepestRise * width, middle};
+  }
+  return bound_between(a, log_ratio_a, b, log_ratio_b);
+}
+
 // Intervals that could still hide a window, lowest bound first.
 std::vector<Split> find_splits(const EvaluationLog& log) {
   const std::vector<double> values = log.base_values();
@@ -107,7 +121,7 @@ std::vector<Split> find_splits(const EvaluationLog& log) {
     if (both_failed || std::log10(values[i + 1] / values[i]) <= narrowest) {
       continue;
     }
-    const IntervalBound bound = bound_between(values[i], a, values[i + 1], b);
+    const IntervalBound bound = bound_beside_failure(values[i], a, values[i + 1], b);
     if (bound.log_ratio <= 0.0) {
       splits.push_back({bound.log_ratio, bound.value});
     }

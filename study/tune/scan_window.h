@@ -11,8 +11,10 @@
 // When no scan point is feasible the scan is refined where a window could still hide. Lower bound
 // between neighbours a < b of log ratio f, with f falling at most kSteepestFall decades per decade
 // and rising at most kSteepestRise (a Piyavskii-Shubert bound): intervals whose bound is positive
-// are left alone, the others are split, lowest bound first. What remains out of reach is a window
-// between two points that both ended with a cause, and one that falls more steeply.
+// are left alone, the others are split, lowest bound first. Beside a point that ended with a cause
+// only the other end counts, since a window may end at a cliff of stability. What remains out of
+// reach is a window between two points that both ended with a cause, and one that falls more
+// steeply.
 #pragma once
 
 #include <string_view>

@@ -99,11 +99,13 @@ double allowed_step(const EvaluationLog& log, const std::vector<ErrorModel>& mod
   return step;
 }
 
-// The largest step that leaves a matching value in the range, and that value.
-Limit find_opening(const EvaluationLog& log, const std::vector<ErrorModel>& models) {
+// The largest step that leaves a matching value in the range up to `high`, and that value.
+Limit find_opening(const EvaluationLog& log, const std::vector<ErrorModel>& models, double high) {
   const std::vector<Limit> limits = find_limits(log);
   Limit best;
-  for (const double value : make_scan_values(log.problem().variables.front(), 1001)) {
+  TunedVariable range = log.problem().variables.front();
+  range.high = high;
+  for (const double value : make_scan_values(range, 1001)) {
     const double step =
         std::min(allowed_step(log, models, value), interpolate_limit(limits, value));
     if (step > best.step) {
@@ -137,10 +139,39 @@ std::optional<std::uint64_t> find_half_step_match(const EvaluationLog& log) {
   return std::nullopt;
 }
 
+// The lowest value above `best` that failed by its step. Above it a stiffer joint is no help.
+std::optional<ScanPoint> find_wall(const EvaluationLog& log, double best) {
+  for (const ScanPoint& point : classify_points(log)) {
+    const bool by_step = point.side == Side::step_too_coarse || point.side == Side::diverged;
+    if (by_step && point.value > best) {
+      return point;
+    }
+  }
+  return std::nullopt;
+}
+
+// A window above the range and behind values that fail by their step: both must change.
+std::string explain_wall(const EvaluationLog& log, const StepSuggestion& suggestion,
+                         const ScanPoint& wall, double needed) {
+  const TunedVariable& variable = log.problem().variables.front();
+  const std::string fails = fmt::format("from {:.3g} {} on the runs fail by their step ({})",
+                                        wall.value, variable.unit, name_of(wall.side));
+  if (suggestion.step <= 0.0) {
+    return fails + ": use a smaller step before you raise the end of the range";
+  }
+  return fmt::format(
+      "{}, and below they are too soft: use step <= {:.2g} s and a range that ends "
+      "above {:.3g} {}",
+      fails, suggestion.step, std::max(needed, suggestion.value), variable.unit);
+}
+
 std::string explain(const EvaluationLog& log, const std::vector<ErrorModel>& models,
-                    const StepSuggestion& suggestion) {
+                    const StepSuggestion& suggestion, const std::optional<ScanPoint>& wall) {
   const TunedVariable& variable = log.problem().variables.front();
   const double needed = find_soft_limit(log, models);
+  if (needed >= variable.high && wall) {
+    return explain_wall(log, suggestion, *wall, needed);
+  }
   if (needed >= variable.high) {
     return fmt::format("too soft over the whole range: raise its end above {:.3g} {}", needed,
                        variable.unit);
@@ -210,14 +241,18 @@ StepSuggestion suggest_step(const EvaluationLog& log) {
   const std::vector<ErrorModel> models =
       best ? fit_components(log, *best) : std::vector<ErrorModel>{};
   StepSuggestion suggestion;
-  const Limit opening = find_opening(log, models);
+  const std::optional<ScanPoint> wall = best ? find_wall(log, *best) : std::nullopt;
+  const double high = log.problem().variables.front().high;
+  // Without a wall the step is not what closes the range.
+  const double ceiling = wall ? std::max(high, 10.0 * find_soft_limit(log, models)) : high;
+  const Limit opening = find_opening(log, models, ceiling);
   if (opening.step > 0.0 && std::isfinite(opening.step)) {
     suggestion.opens_at = opening.step;
     suggestion.step = round_down_to_two_digits(kComfort * opening.step);
     suggestion.value = opening.value;
   }
   suggestion.confirmed_by = find_half_step_match(log);
-  suggestion.message = best ? explain(log, models, suggestion) : explain_no_run(suggestion);
+  suggestion.message = best ? explain(log, models, suggestion, wall) : explain_no_run(suggestion);
   if (suggestion.confirmed_by) {
     suggestion.message +=
         fmt::format(" (evaluation {} matches at half the step)", *suggestion.confirmed_by);

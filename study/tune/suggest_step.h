@@ -7,6 +7,8 @@
 //   h_i(c) = ((tol_i - A_i / c) / (B_i c^2))^(1/4),
 // never past the stability limit, which is interpolated between the limits the answers report and
 // falls as c^(-1/2) beyond them. At the largest min_i h_i(c) over the range the window is a point.
+// Where softness alone asks for more than the range has, its end is to be raised; but where values
+// below that end fail by their step, that is no help at the same step, and both are advised.
 // The suggestion is 0.7 of that, rounded down to two digits: the step error at its lower end is
 // then at most a quarter of what closed the window, small enough for a certificate.
 #pragma once

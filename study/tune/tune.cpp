@@ -43,6 +43,40 @@ std::string budget_reason(const EvaluationLog& log) {
                      log.options().max_evaluations);
 }
 
+// The point that misses by least, whose component and load case say what to look at.
+void describe_nearest(const EvaluationLog& log, TuningResult& result) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const double value : log.base_values()) {
+    const double ratio = log.ratio(value, 1.0).value();
+    if (ratio >= smallest) {
+      continue;
+    }
+    smallest = ratio;
+    result.answer = log.find({value}, 1.0)->answer;
+    result.answer_value = value;
+    result.binding = find_binding(result.answer, log.problem().components);
+  }
+}
+
+std::string nearest_text(const TuningResult& result) {
+  if (result.answer.errors.empty()) {
+    return {};
+  }
+  const MatchComponent& component = result.problem.components[result.binding];
+  return fmt::format("; nearest is {:.4g} {}, where {} misses by a factor of {:.3g}",
+                     result.answer_value, result.problem.variables.front().unit, component.name,
+                     result.answer.errors[result.binding] / component.tolerance);
+}
+
+std::optional<Observation> find_first_failure(const EvaluationLog& log) {
+  for (const Observation& seen : log.observations()) {
+    if (seen.answer.status != Cause::ok) {
+      return seen;
+    }
+  }
+  return std::nullopt;
+}
+
 void describe_empty_window(EvaluationLog& log, TuningResult& result) {
   if (!log.exhausted()) {
     probe_half_step(log);
@@ -53,7 +87,9 @@ void describe_empty_window(EvaluationLog& log, TuningResult& result) {
   }
   result.suggestion = suggest_step(log);
   result.status = TuningStatus::infeasible;
-  result.reason = "no point of the range matches: " + result.suggestion->message;
+  describe_nearest(log, result);
+  result.reason =
+      "no point of the range matches" + nearest_text(result) + ": " + result.suggestion->message;
   if (log.exhausted()) {
     result.status = TuningStatus::inconclusive;
     result.reason = "no match seen, and " + budget_reason(log);
@@ -159,6 +195,7 @@ void describe_window(EvaluationLog& log, Search search, TuningResult& result) {
   result.point = {value};
   result.objective = compute_objective(result.point);
   result.answer = log.find(result.point, 1.0)->answer;
+  result.answer_value = value;
   result.binding = find_binding(result.answer, log.problem().components);
   result.window = search.window;
   result.certificate = make_certificate(search.terms, log);
@@ -213,6 +250,7 @@ TuningResult tune(const TuningProblem& problem, const TuningOptions& options,
   }
   result.points = classify_points(log);
   result.observations = log.observations();
+  result.first_failure = find_first_failure(log);
   result.rounds = log.rounds();
   if (result.window) {
     add_notes(options, result);

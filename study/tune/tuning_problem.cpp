@@ -68,7 +68,6 @@ void check_decades(const TuningOptions& options, std::vector<Problem>& problems)
     }
   };
   within("resolution", options.resolution, 1e-8, 0.5);
-  within("upper_resolution", options.upper_resolution, 1e-8, 0.5);
   within("neighbourhood", options.neighbourhood, 1e-6, 2.0);
   within("delta", options.delta, 1e-8, 0.9);
   if (-std::log10(1.0 - options.delta) < options.resolution) {

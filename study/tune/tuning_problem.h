@@ -37,8 +37,7 @@ struct TuningOptions {
   std::size_t scan = 16;              // log-spaced points over the range, ends included
   std::size_t batch = 8;              // points asked for together; an input, never the rank count
   std::size_t max_evaluations = 300;  // never exceeded
-  double resolution = 1e-3;           // decades, of the lowest feasible boundary
-  double upper_resolution = 2e-2;     // decades, of the upper end of the window
+  double resolution = 1e-3;           // decades, of both ends of the window
   double delta = 0.02;                // k (1 - delta) must fail for k to count as minimal
   double neighbourhood = 0.1;         // decades around k in which the error must fall
   std::size_t confirm_evaluations = 16;  // new ones for each algorithm of NLopt; 0 skips it
@@ -58,6 +57,7 @@ struct Request {
 struct Answer {
   std::uint64_t id = 0;
   Cause status = Cause::ok;
+  std::string message;         // what a cause has to say
   std::vector<double> errors;  // one per component; ignored unless status is ok
   double h_omega = 0.0;        // step times highest eigenfrequency; NaN or 0 when unknown
   double step_limit = 0.0;     // s, stability limit of the step; NaN or 0 when unknown

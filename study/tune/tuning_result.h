@@ -29,11 +29,14 @@ struct TuningResult {
   TuningStatus status = TuningStatus::inconclusive;
   std::string reason;  // one line; empty when certified
   TuningProblem problem;
-  std::vector<double> point;     // lowest that matches, or the lowest seen; empty when none
-  double objective = 0.0;        // sum of log10
-  Answer answer;                 // of the point at the base step
-  std::size_t binding = 0;       // component closest to its tolerance
-  std::optional<Window> window;  // nothing when no point matches
+  std::vector<double> point;  // lowest that matches, or the lowest seen; empty when none
+  double objective = 0.0;     // sum of log10
+  // Of the point at the base step; when no point matches, of the one with the smallest ratio.
+  Answer answer;
+  double answer_value = 0.0;                 // where that is
+  std::size_t binding = 0;                   // component closest to its tolerance
+  std::optional<Observation> first_failure;  // lowest id that ended by a cause
+  std::optional<Window> window;              // nothing when no point matches
   std::optional<Certificate> certificate;
   std::optional<StepSuggestion> suggestion;  // when no point matches
   NloptReport nlopt;

@@ -15,6 +15,10 @@ void add_line(std::string& text, const std::string& key, const std::string& valu
   text += fmt::format("{:<12}{}\n", key, value);
 }
 
+Json make_number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
 const TunedVariable& variable_of(const TuningResult& result) {
   return result.problem.variables.front();
 }
@@ -42,16 +46,55 @@ void add_window(std::string& text, const TuningResult& result) {
 
 void add_answer(std::string& text, const TuningResult& result) {
   const Answer& answer = result.answer;
-  if (result.point.empty() || answer.errors.empty()) {
+  if (answer.errors.empty()) {
     return;
   }
   const MatchComponent& component = result.problem.components[result.binding];
-  add_line(text, "binding",
-           fmt::format("{}: error {:.4g} of {:.4g}", component.name, answer.errors[result.binding],
-                       component.tolerance));
+  std::string binding = fmt::format("{}: error {:.4g} of {:.4g}", component.name,
+                                    answer.errors[result.binding], component.tolerance);
+  if (result.point.empty()) {
+    binding += fmt::format(" at {:.6g} {} (evaluation {})", result.answer_value,
+                           variable_of(result).unit, answer.id);
+  }
+  add_line(text, "binding", binding);
   add_line(text, "step",
            fmt::format("{:.4g} s, limit {:.4g} s, h omega_max {:.3g}", answer.step,
                        answer.step_limit, answer.h_omega));
+}
+
+void add_first_failure(std::string& text, const TuningResult& result) {
+  if (!result.first_failure) {
+    return;
+  }
+  const Answer& answer = result.first_failure->answer;
+  const std::string said = answer.message.empty() ? "" : ": " + answer.message;
+  add_line(text, "first end",
+           fmt::format("evaluation {} at {:.6g} {}: {}{}", answer.id,
+                       result.first_failure->request.x.front(), variable_of(result).unit,
+                       linkstudy::name_of(answer.status), said));
+}
+
+Json make_first_failure(const TuningResult& result) {
+  if (!result.first_failure) {
+    return nullptr;
+  }
+  const Answer& answer = result.first_failure->answer;
+  return {{"evaluation", answer.id},
+          {"value", result.first_failure->request.x.front()},
+          {"cause", linkstudy::name_of(answer.status)},
+          {"message", answer.message}};
+}
+
+Json make_binding(const TuningResult& result) {
+  if (result.answer.errors.empty()) {
+    return nullptr;
+  }
+  const MatchComponent& component = result.problem.components[result.binding];
+  return {{"component", component.name},
+          {"value", result.answer_value},
+          {"evaluation", result.answer.id},
+          {"error", make_number(result.answer.errors[result.binding])},
+          {"tolerance", component.tolerance}};
 }
 
 std::string describe_nlopt(const NloptReport& nlopt) {
@@ -92,10 +135,6 @@ void add_points(std::string& text, const TuningResult& result) {
     text += fmt::format("{:>14.6g}  {:>15.4g}  {:<16}{:>10}\n", point.value, point.ratio, side,
                         point.evaluation);
   }
-}
-
-Json make_number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
 Json make_window(const TuningResult& result) {
@@ -143,6 +182,7 @@ std::string write_text(const TuningResult& result) {
   add_point(text, result);
   add_window(text, result);
   add_answer(text, result);
+  add_first_failure(text, result);
   if (result.window) {
     add_line(text, "NLopt", describe_nlopt(result.nlopt));
   }
@@ -171,6 +211,8 @@ std::string write_json(const TuningResult& result, const std::string& digest) {
                {"parameters", parameters},
                {"objective", result.point.empty() ? Json(nullptr) : Json(result.objective)},
                {"error", errors},
+               {"binding", make_binding(result)},
+               {"first_failure", make_first_failure(result)},
                {"window", make_window(result)},
                {"certificate", make_claims(result)},
                {"suggestion", make_suggestion(result)},

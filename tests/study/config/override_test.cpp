@@ -41,6 +41,41 @@ Diagnostic bad(const std::vector<std::string>& assignments) {
   return diagnostics.empty() ? Diagnostic{} : diagnostics.sorted().front();
 }
 
+TEST(Override, A_star_for_the_name_sets_the_value_everywhere) {
+  const ModelInput input = good({"link.*.mass=3", "joint.*.initial.hold=true"});
+  for (const Link& link : input.linkage.links) EXPECT_EQ(link.mass, 3.0) << link.name;
+  for (const Joint& joint : input.linkage.joints) EXPECT_TRUE(joint.hold) << joint.name;
+  // What comes later and names one of them holds for that one.
+  const ModelInput later = good({"link.*.mass=3", "link.crank.mass=4"});
+  EXPECT_EQ(later.linkage.links[0].mass, 4.0);
+  EXPECT_EQ(later.linkage.links[1].mass, 3.0);
+}
+
+TEST(Override, A_star_is_every_element_that_there_is) {
+  const ModelDocument model = document();
+  const auto paths = expand_path(model.tree(), model_schema(), "link.*.mass");
+  EXPECT_THAT(paths, ::testing::Contains("link.crank.mass"));
+  EXPECT_EQ(paths.size(), good({}).linkage.links.size());
+  EXPECT_THAT(expand_path(model.tree(), model_schema(), "link.crank.mass"),
+              ::testing::ElementsAre("link.crank.mass"));
+}
+
+TEST(Override, A_star_where_no_name_stands_is_an_error) {
+  for (const char* set : {"*=1", "*.crank.mass=1", "link.*=1", "link.*.mas=1", "point.*.link=crank",
+                          "link.crank.*=1", "gravity.*=1"}) {
+    EXPECT_THAT(bad({set}).message, HasSubstr("names no value")) << set;
+  }
+}
+
+TEST(Override, A_star_takes_the_unit_that_its_values_share) {
+  const ModelDocument model = document();
+  ASSERT_TRUE(parameter_for(model, "link.*.mass"));
+  EXPECT_EQ(parameter_for(model, "link.*.mass")->unit, "kg");
+  EXPECT_EQ(parameter_for(model, "closure.*.sde.stiffness")->unit, "N/m");
+  // A is a revolute joint and P slides: rad and m.
+  EXPECT_FALSE(parameter_for(model, "joint.*.initial.position"));
+}
+
 TEST(Override, Values_of_every_kind_are_set_by_their_path) {
   const ModelInput input = good({"link.crank.mass=2 kg", "simulation.step=1e-3", "name=a title",
                                  "joint.A.initial.hold=true", "gravity.1=-1.62",
@@ -108,7 +143,7 @@ TEST(Override, A_path_that_names_nothing_gives_the_nearest_paths) {
   EXPECT_THAT(bad({"closure.S.sde.stifness.x=1"}).remedy, HasSubstr("closure.S.sde.stiffness"));
   for (const char* path :
        {"", "link", "link.crank", "link.crank.mass.0", "gravity.3", "gravity.x", "gravity.1.0",
-        "simulation", "joint.A.frame", "link.9.mass", "link.*.mass", ".", "a..b",
+        "simulation", "joint.A.frame", "link.9.mass", "link.*.mas", ".", "a..b",
         "link.crank.flexible", "joint.A.initial.position.1", "joint.A.frame.matrix.0"}) {
     Diagnostics diagnostics;
     const Override nowhere = make_override(path, 1.0);

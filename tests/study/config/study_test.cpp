@@ -277,6 +277,8 @@ TEST(Study, Paths_and_values_that_do_not_fit_the_model_are_errors_of_the_study) 
       {kStudy, "log = [1e4, 1e8, 5]", "log = [@-1, 1e8, 5]", "must be positive, got -1 N/m"},
       {kStudy, "log = [1e4, 1e8, 5]", "log = [1e4, 1e8, @1]",
        "must be an integer of at least 2, got 1"},
+      {kStudy, "log = [1e4, 1e8, 5]", "log = [1e4, 1e8, @1000001]",
+       "must be an integer of at most 1000000, got 1000001"},
       {kStudy, "log = [1e4, 1e8, 5]", "values = @[]", "values must not be empty"},
       {kStudy, "log = [1e4, 1e8, 5]", "log = [1e4, 1e8, 5]\n@lin = [1, 2, 3]",
        "exclude each other"},

@@ -72,9 +72,11 @@ TEST(Launcher, Of_another_MPI_library_is_explained) {
   const Launcher launcher = find({{"PMI_SIZE", "4"}, {"PMI_RANK", "0"}});
   EXPECT_NO_THROW(check_size(launcher, 4));
   try {
-    check_size(launcher, 1);
+    check_size(launcher, 1, "Open MPI v4.1.4");
     FAIL() << "four copies would have run";
   } catch (const LaunchError& error) {
+    EXPECT_THAT(error.what(),
+                HasSubstr("two MPI installations: this program uses Open MPI v4.1.4"));
     EXPECT_THAT(error.what(), HasSubstr("started 4 processes, but this one sees 1"));
     EXPECT_TRUE(error.is_first());
   }

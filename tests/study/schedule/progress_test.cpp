@@ -87,6 +87,13 @@ TEST(Progress, On_a_terminal_redraws_one_line_at_most_ten_times_a_second) {
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1);
 }
 
+TEST(Progress, Tells_how_many_are_running) {
+  ProgressState state{400, 300, 3, 200, 50.0};
+  state.running = 15;
+  EXPECT_EQ(progress_line(state), "300 of 400 (75%), 3 failed, 15 running, 2/s, 50s left");
+  EXPECT_THAT(progress_bar(state, 100), ::testing::HasSubstr("3 failed  15 running  2/s"));
+}
+
 TEST(Progress, Keeps_its_clock_running_without_results) {
   std::ostringstream log;
   Progress progress(ProgressMode::line, 10, 0, start, log, 80);

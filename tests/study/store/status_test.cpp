@@ -46,7 +46,36 @@ TEST_F(Directory, Of_a_study_that_ended_before_its_journal_is_taken) {
   EXPECT_TRUE(std::filesystem::exists(dir_ / "linkstudy.log"));
 }
 
+TEST_F(Directory, With_results_and_no_journal_is_refused_unless_fresh) {
+  for (const char* name : {"results.h5", "report.html"}) {
+    for (const bool torn : {false, true}) {
+      SCOPED_TRACE(name);
+      put(dir_ / name, "weeks of work");
+      if (torn) put(dir_ / "journal.bin", "linkstJ");
+      EXPECT_THAT(message_of<StoreError>([&] { prepare_directory(dir_); }), HasSubstr("--fresh"));
+      EXPECT_EQ(read_file(dir_ / name), "weeks of work");
+      prepare_directory(dir_, true);
+      std::filesystem::remove(dir_ / name);
+      std::filesystem::remove(dir_ / "journal.bin");
+    }
+  }
+}
+
 class Status : public Scratch {};
+
+TEST_F(Status, Tells_what_a_damaged_journal_has_lost) {
+  {
+    Journal journal(dir_, sample::kInputSha256, OpenMode::resume);
+    journal.append(sample::evaluation(0));
+    journal.append(sample::evaluation(1));
+  }
+  EXPECT_EQ(read_status(dir_).dropped, "");
+  std::string bytes = read_file(dir_ / "journal.bin");
+  bytes[bytes.size() - 5] ^= 1;
+  put(dir_ / "journal.bin", bytes);
+  EXPECT_THAT(read_status(dir_).dropped, HasSubstr("1 evaluations are left"));
+  EXPECT_EQ(read_status(dir_).done, 1u);
+}
 
 TEST_F(Status, Counts_of_a_running_and_of_a_dead_study_agree) {
   StudyStatus running;

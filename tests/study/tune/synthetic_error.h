@@ -74,7 +74,7 @@ class SyntheticError {
   Answer answer(const Request& request, std::uint64_t id) const {
     const double c = request.x.front();
     const double h = step * request.step_factor;
-    Answer result{id, cause(c, h), {}, std::sqrt(c) * h, limit_scale / std::sqrt(c), h};
+    Answer result{id, cause(c, h), {}, {}, std::sqrt(c) * h, limit_scale / std::sqrt(c), h};
     if (h > result.step_limit) {
       result.status = Cause::diverged;
     }
