@@ -10,6 +10,9 @@
 //           its series to the 21st power, arranged so that the leading f is added last. Error below
 //           1 unit in the last place; -infinity at 0 and below 2^-1022 (no denormals), infinity at
 //           infinity, not a number below 0.
+//   quadrant_angle  the angle from 0 to pi/2 whose sine and cosine go as y and x, both not negative
+//           and not both zero: reduced to |u| <= 0.66 by pi/4 or pi/2, then the rational function
+//           of the Cephes library. Error below 2 units in the last place.
 //   power   x^n = exp(n ln x), 0 for x <= 0 and for no number. Relative error below
 //           (1 + |n ln x|) 2^-52.
 #pragma once
@@ -150,6 +153,40 @@ inline Real log(Real x) {
   const Real below = select(x < Real(0.0), Real(infinity) - Real(infinity), Real(-infinity));
   const Real inside = select(x < least, below, value);
   return select(x < Real(infinity), inside, x);
+}
+
+namespace detail {
+
+// (atan(u) / u - 1) / z for z = u^2 <= 0.44.
+template <class Real>
+inline Real arctangent_fraction(Real z) {
+  Real p = madd(Real(-8.750608600031904122785e-1), z, Real(-1.615753718733365076637e1));
+  p = madd(p, z, Real(-7.500855792314704667340e1));
+  p = madd(p, z, Real(-1.228866684490136173410e2));
+  p = madd(p, z, Real(-6.485021904942025371773e1));
+  Real q = z + Real(2.485846490142306297962e1);
+  q = madd(q, z, Real(1.650270098316988542046e2));
+  q = madd(q, z, Real(4.328810604912902668951e2));
+  q = madd(q, z, Real(4.853903996359136964868e2));
+  q = madd(q, z, Real(1.945506571482613964425e2));
+  return p / q;
+}
+
+}  // namespace detail
+
+template <class Real>
+inline Real quadrant_angle(Real y, Real x) {
+  const auto high = y > Real(2.41421356237309504880) * x;  // tan(3 pi / 8)
+  const auto low = y <= Real(0.66) * x;
+  const Real u = select(high, -x, select(low, y, y - x)) / select(high, y, select(low, x, y + x));
+  const Real z = u * u;
+  const Real value = madd(u * z, detail::arctangent_fraction(z), u);
+  const Real zero(0.0);
+  const Real base = select(high, Real(1.57079632679489661923),  //
+                           select(low, zero, Real(0.785398163397448309616)));
+  const Real rest = select(high, Real(6.123233995736765886130e-17),
+                           select(low, zero, Real(3.061616997868382943065e-17)));
+  return base + (value + rest);
 }
 
 template <class Real>

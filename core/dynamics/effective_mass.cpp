@@ -13,7 +13,7 @@ namespace {
 using Eigen::MatrixXd;
 
 bool is_rotation(const Row& row) {
-  return row.kind == RowKind::rotation;
+  return measures_turn(row.kind);
 }
 
 double effective(const MatrixXd& j, const MatrixXd& mass) {
@@ -32,7 +32,7 @@ MatrixXd translation_jacobian(const Model& model, const Workspace<double>& w, in
   bool along_axes = true;
   for (int r = c.row_begin; r < c.row_end; ++r) {
     const RowKind kind = rows[static_cast<std::size_t>(r)].kind;
-    if (kind == RowKind::rotation) continue;
+    if (measures_turn(kind)) continue;
     ++count;
     along_axes =
         along_axes && (kind == RowKind::translation_ground || kind == RowKind::translation_first);

@@ -24,15 +24,6 @@ constexpr int kMaxRestarts = 24;
 constexpr double kLongestStep = 0.5;  // rad or m, of one iteration
 constexpr double kPolished = 1e-14;   // residual at which iteration stops
 
-std::vector<int> free_velocities(const Model& model) {
-  std::vector<int> free;
-  for (int k = 0; k < model.mechanism.nv; ++k) {
-    const bool held = std::find(model.held.begin(), model.held.end(), k) != model.held.end();
-    if (!held) free.push_back(k);
-  }
-  return free;
-}
-
 // Step of least norm that minimises |r + J x|^2 + mu |x|^2.
 VectorXd damped_step(const MatrixXd& j, const VectorXd& r, double mu) {
   if (mu == 0.0) return j.completeOrthogonalDecomposition().solve(-r);
@@ -294,6 +285,15 @@ std::string open_text(const AssemblyReport& report) {
     return text + "; the axis of a closure is x of its frames, that of a tree joint z";
   }
   return text;
+}
+
+std::vector<int> free_velocities(const Model& model) {
+  std::vector<int> free;
+  for (int k = 0; k < model.mechanism.nv; ++k) {
+    const bool held = std::find(model.held.begin(), model.held.end(), k) != model.held.end();
+    if (!held) free.push_back(k);
+  }
+  return free;
 }
 
 Model compile_closed(const Linkage& linkage) {

@@ -8,7 +8,8 @@
 // against each other (x_1 . x_2 < 0 where the closure aligns x, y_1 . y_2 < 0 where it aligns y) is
 // taken only if none with aligned axes is found; the report names such closures.
 // Velocities: the smallest change of the free velocities that gives J v = 0.
-// Every closure counts as the exact joint of its type, however it is modelled.
+// Which rows there are is the model's: compile_closed takes every closure as the exact joint of its
+// type, compile_start (core/model) of replacement joints what must be shut when a run begins.
 #pragma once
 
 #include <Eigen/Core>
@@ -46,6 +47,9 @@ inline constexpr double kClosedTolerance = 1e-9;
 
 // Singular values of the closure Jacobian below this part of the largest count as zero.
 inline constexpr double kRankTolerance = 1e-7;
+
+// Velocity indices of the joints that are not held.
+std::vector<int> free_velocities(const Model& model);
 
 // The same linkage with every closure cut, so that its closure equations can be evaluated.
 Model compile_closed(const Linkage& linkage);

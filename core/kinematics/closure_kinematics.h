@@ -6,9 +6,11 @@
 //   axis e of {1,e}   d = e.gap    force e at p2 on both (e turns with body 1)
 //   line of centres   d = |gap|    force u along the line, zero at coincidence
 //   rotation          d = s a.b    couple s b x a
+//   rotation vector   d = e.phi    couple d phi_i / d(turn) (core/spatial/rotation_vector.h)
 #pragma once
 
 #include "core/kinematics/forward_kinematics.h"
+#include "core/spatial/rotation_vector.h"
 
 namespace linkstudy {
 
@@ -103,6 +105,18 @@ inline void update_rotation_row(const Row& r, const ClosureState<Real>& x,
   row.bias = dot(row.couple, b2.alpha - b1.alpha) + sign * dot(rate, omega);
 }
 
+template <class Real>
+inline void update_rotation_vector_row(const Row& r, const ClosureState<Real>& x,
+                                       const BodyState<Real>& b1, const BodyState<Real>& b2,
+                                       RowState<Real>& row) {
+  const RotationVector<Real> turn = rotation_vector(x.r1, x.r2);
+  const Mat3<Real> e = identity3<Real>();
+  row.couple = x.r1 * rotation_vector_gradient(turn, column(e, r.axis));
+  row.d = component(turn.phi, r.axis);
+  row.rate = dot(row.couple, b2.omega - b1.omega);
+  row.bias = Real(0.0);  // never a constraint
+}
+
 // One row; `acceleration` is gap_acceleration, used for the bias only.
 template <class Real>
 inline void update_row(const Row& r, const ClosureState<Real>& x, const Mat3<Real>& springs,
@@ -134,6 +148,8 @@ inline void update_row(const Row& r, const ClosureState<Real>& x, const Mat3<Rea
       return update_line_row(x, row);
     case RowKind::rotation:
       return update_rotation_row(r, x, b1, b2, row);
+    case RowKind::rotation_vector:
+      return update_rotation_vector_row(r, x, b1, b2, row);
   }
 }
 
@@ -201,6 +217,7 @@ inline void add_row_force(const Row& structure, const RowState<Real>& row, Closu
       x.force_points = madd(row.value, row.force, x.force_points);
       return;
     case RowKind::rotation:
+    case RowKind::rotation_vector:
       x.couple = madd(row.value, row.couple, x.couple);
       return;
     default:

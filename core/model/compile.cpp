@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "core/model/closure_rows.h"
 #include "core/model/shapes.h"
 
 namespace linkstudy {
@@ -106,8 +107,8 @@ bool starts_with_ground_axes(const std::vector<Row>& rows, const ClosureStructur
 
 class Compiler {
  public:
-  Compiler(const Linkage& linkage, const std::vector<unsigned>& idle)
-      : linkage_(linkage), idle_(idle) {}
+  Compiler(const Linkage& linkage, const std::vector<unsigned>& idle, bool shuts_sdes = false)
+      : linkage_(linkage), idle_(idle), shuts_sdes_(shuts_sdes) {}
 
   Model run() {
     parameters().gravity = to_vec3(linkage_.gravity);
@@ -273,17 +274,12 @@ class Compiler {
     ClosureStructure c;
     c.first = body_of_.at(closure.first.link);
     c.second = body_of_.at(closure.second.link);
-    c.model = closure.model;
+    const bool cut = closure.model != ClosureModel::sde || shuts_sdes_;
+    c.model = cut && closure.model == ClosureModel::sde ? ClosureModel::cut : closure.model;
     c.stabilization = closure.stabilization;
-    const bool cut = closure.model != ClosureModel::sde;
     std::vector<Row>& rows = cut ? m.cut_rows : m.sde_rows;
     c.row_begin = static_cast<int>(rows.size());
-    if (cut) {
-      add_cut_rows(closure, index);
-      m.projects |= closure.stabilization == Stabilization::projection;
-    } else {
-      add_sde_rows(closure, index);
-    }
+    add_rows(closure, index, cut);
     c.row_end = static_cast<int>(rows.size());
     c.last_1 = last_velocity(c.first);
     c.last_2 = last_velocity(c.second);
@@ -291,7 +287,7 @@ class Compiler {
     for (int r = c.row_begin; r < c.row_end; ++r) {
       const RowKind kind = rows[static_cast<std::size_t>(r)].kind;
       c.has_line = c.has_line || kind == RowKind::line_of_centres;
-      c.needs_frames = c.needs_frames || kind == RowKind::rotation ||
+      c.needs_frames = c.needs_frames || measures_turn(kind) ||
                        kind == RowKind::translation_first || kind == RowKind::spring_first;
     }
     c.point_rows = starts_with_ground_axes(rows, c);
@@ -337,67 +333,21 @@ class Compiler {
          relaxation});
   }
 
-  // Directions held by multipliers: a clearance leaves the axial motion blocked, a planar one the
-  // tilts too.
-  static unsigned held_directions(const Closure& closure) {
-    if (closure.model != ClosureModel::clearance) return blocked_directions(closure.type);
-    const bool planar = closure.clearance.kind == ClearanceKind::planar;
-    return planar ? 1u << kX | 1u << kTheta | 1u << kPsi : 1u << kX;
-  }
-
-  void add_cut_rows(const Closure& closure, int index) {
-    const auto i = static_cast<std::size_t>(index);
-    const unsigned idle = i < idle_.size() ? idle_[i] : 0u;
-    const unsigned blocked = held_directions(closure) & ~idle;
-    const unsigned translations = held_directions(closure) & 7u;
-    const RowKind kind =
-        translations == 7u ? RowKind::translation_ground : RowKind::translation_first;
-    for (int d = kX; d <= kZ; ++d) {
-      if (blocked >> d & 1u) mechanism().cut_rows.push_back({kind, index, d, 0, 1.0, d});
+  // Rows of a closure held by multipliers, or by a spring-damping element.
+  void add_rows(const Closure& closure, int index, bool cut) {
+    Mechanism& m = mechanism();
+    if (cut) {
+      const auto i = static_cast<std::size_t>(index);
+      const auto rows = make_cut_rows(closure, index, i < idle_.size() ? idle_[i] : 0u);
+      m.cut_rows.insert(m.cut_rows.end(), rows.begin(), rows.end());
+      m.projects |= closure.stabilization == Stabilization::projection;
+      return;
     }
-    for (int d = kPhi; d <= kPsi; ++d) {
-      if (blocked >> d & 1u) {
-        mechanism().cut_rows.push_back(rotation_row(closure, TiltMeasure::axis, index, d));
-      }
-    }
-  }
-
-  // Measures of small rotations: axis (tilt of the second x axis seen in {1,e}) or linearized
-  // ([Urbas16] eq. (12)); a universal joint turns about x of the first and y of the second.
-  static Row rotation_row(const Closure& closure, TiltMeasure tilt, int index, int d) {
-    constexpr auto kind = RowKind::rotation;
-    if (d == kPhi) return {kind, index, 2, 1, 1.0, d};
-    if (d == kTheta) {
-      return tilt == TiltMeasure::axis ? Row{kind, index, 2, 0, -1.0, d}
-                                       : Row{kind, index, 0, 2, 1.0, d};
-    }
-    const bool universal = closure.type == JointType::universal && tilt == TiltMeasure::axis;
-    return universal ? Row{kind, index, 0, 1, -1.0, d} : Row{kind, index, 1, 0, 1.0, d};
-  }
-
-  void add_sde_rows(const Closure& closure, int index) {
     const Sde& sde = closure.sde;
-    const bool ground = sde.axes == SdeAxes::ground;
-    const bool line = sde.form == SdeForm::line_of_centres;
-    const bool springs = sde.form == SdeForm::three_springs;
-    for (int d = kX; d < kDirections; ++d) {
-      const auto i = static_cast<std::size_t>(d);
-      const bool rotation = d >= kPhi;
-      if (line && d != kX && !rotation) continue;  // one element, coefficients of x
-      if (sde.stiffness[i] == 0.0 && sde.damping[i] == 0.0) continue;
-      Row row =
-          rotation ? rotation_row(closure, sde.tilt, index, d)
-          : line   ? Row{RowKind::line_of_centres, index, 0, 0, 1.0, d}
-          : springs
-              ? Row{ground ? RowKind::spring_ground : RowKind::spring_first, index, d, 0, 1.0, d}
-              : Row{ground ? RowKind::translation_ground : RowKind::translation_first,
-                    index,
-                    d,
-                    0,
-                    1.0,
-                    d};
-      mechanism().sde_rows.push_back(row);
-      parameters().springs.push_back({sde.stiffness[i], sde.damping_ratio ? 0.0 : sde.damping[i]});
+    for (const Row& row : make_sde_rows(closure, index)) {
+      const auto d = static_cast<std::size_t>(row.direction);
+      m.sde_rows.push_back(row);
+      parameters().springs.push_back({sde.stiffness[d], sde.damping_ratio ? 0.0 : sde.damping[d]});
     }
   }
 
@@ -474,6 +424,7 @@ class Compiler {
 
   const Linkage& linkage_;
   const std::vector<unsigned>& idle_;
+  bool shuts_sdes_;
   Model model_;
   std::map<std::string, int> body_of_;
   std::vector<Frame> link_frames_;  // frame of the link in its body's internal frame
@@ -487,6 +438,10 @@ Frame link_in_body(const Joint& joint) {
 
 Model compile(const Linkage& linkage, const std::vector<unsigned>& idle) {
   return Compiler(linkage, idle).run();
+}
+
+Model compile_start(const Linkage& linkage, const std::vector<unsigned>& idle) {
+  return Compiler(linkage, idle, true).run();
 }
 
 }  // namespace linkstudy

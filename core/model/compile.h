@@ -20,6 +20,10 @@ struct Model {
 // `idle`: for every closure the directions whose cut rows are left out (core/kinematics/idle_rows).
 Model compile(const Linkage& linkage, const std::vector<unsigned>& idle = {});
 
+// The same linkage with what must be closed when a run begins as cut rows: cut joints and
+// clearances as compile has them, and of every closure of model sde its shut_directions.
+Model compile_start(const Linkage& linkage, const std::vector<unsigned>& idle = {});
+
 // Frame of a link in its body's internal frame: the inverse of the joint's child frame.
 Frame link_in_body(const Joint& joint);
 

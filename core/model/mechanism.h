@@ -70,14 +70,21 @@ struct Body {
 //   spring_ground/_first  the same with e a given unit direction
 //   line_of_centres     d = |p2 - p1|
 //   rotation            d = sign * a . b, a an axis of {1,e}, b an axis of {2,e}
+//   rotation_vector     d = e . phi, e an axis of {1,e}, phi the rotation vector from it to {2,e}
 enum class RowKind : std::uint8_t {
   translation_ground,
   translation_first,
   spring_ground,
   spring_first,
   line_of_centres,
-  rotation
+  rotation,
+  rotation_vector
 };
+
+// d is an angle or a sine of one, the wrench a couple.
+constexpr bool measures_turn(RowKind kind) {
+  return kind == RowKind::rotation || kind == RowKind::rotation_vector;
+}
 
 struct Row {
   RowKind kind;

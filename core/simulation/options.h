@@ -18,6 +18,7 @@ struct SimulationOptions {
   double absolute_tolerance = 1.0e-10;  // adaptive, stiff: in the units of each unknown
   long step_limit = 100'000'000;        // adaptive, stiff: more steps end the run (step_budget)
   Start start = Start::given;
+  double statics_time = 0.0;    // s; loads count in equilibrium with their value then
   double drift_limit = 1.0e-3;  // m or rad; a larger gap of a cut closure ends the run
 };
 

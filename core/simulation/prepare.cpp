@@ -8,17 +8,21 @@
 
 #include "core/dynamics/effective_mass.h"
 #include "core/dynamics/motion.h"
+#include "core/dynamics/static_balance.h"
 #include "core/kinematics/idle_rows.h"
 #include "core/kinematics/mobility.h"
 #include "core/numerics/rank.h"
 #include "core/simulation/simulate.h"
+#include "core/spatial/rotation_vector.h"
 
 namespace linkstudy {
 namespace {
 
 constexpr double kLinearTurn = 45.0;         // deg
+constexpr double kLargeTurn = 150.0;         // deg
 constexpr double kVelocityTolerance = 1e-6;  // of the largest velocity
-constexpr double kChanged = 1e-3;  // part of a given velocity that closures may correct unsaid
+constexpr double kStatedVelocity = 1e-3;     // of the largest: stated ones are rounded
+constexpr double kSlightEffort = 1e-9;       // of the largest weight or load
 constexpr double kPressed = 0.05;  // of the clearance: a journal that rests on its bearing
 
 std::string number(double x) {
@@ -141,34 +145,13 @@ void warn_of_flipped(const AssemblyReport& a, Preparation& p) {
   }
 }
 
-// A velocity that is written, and that the closures do not leave: it is a proposal unless held.
-void warn_of_velocities(const Linkage& linkage, Preparation& p) {
-  const Mechanism& m = p.model.mechanism;
-  for (const Joint& joint : linkage.joints) {
-    const auto at = std::ranges::find(m.joint_names, joint.name);
-    if (joint.hold || at == m.joint_names.end()) continue;
-    const int first = m.bodies[static_cast<std::size_t>(at - m.joint_names.begin())].v_begin;
-    for (std::size_t i = 0; i < joint.velocity.size(); ++i) {
-      const double given = joint.velocity[i];
-      const double taken = p.model.start.v[static_cast<std::size_t>(first) + i];
-      if (std::abs(taken - given) <= kChanged * std::abs(given) || given == 0.0) continue;
-      p.warnings.push_back("joint '" + joint.name + "': initial.velocity " + number(given) +
-                           " does not fit the closures: the run starts with " + number(taken) +
-                           " (hold = true makes this an error)");
-    }
-  }
-}
-
 // Closed but for the clearances, the journals within their bearings: then that is what is meant.
 // Otherwise a run begins with journals in the middle.
-bool keep_loose_journals(const Linkage& linkage, const State<double>& given, Preparation& p) {
+bool keep_loose_journals(const Linkage& linkage, const std::vector<unsigned>& idle,
+                         const State<double>& given, Preparation& p) {
   if (p.model.mechanism.clearances.empty()) return false;
-  Linkage loose = linkage;
-  for (Closure& c : loose.closures) {
-    if (c.model == ClosureModel::sde) c.model = ClosureModel::cut;
-  }
   State<double> start = given;
-  const AssemblyReport a = assemble_start(compile(loose, find_idle_directions(loose)), start);
+  const AssemblyReport a = assemble_start(compile_start(linkage, idle), start);
   if (!a.closed || a.restarts > 0 || a.velocity_residual > kVelocityTolerance) return false;
   const Mechanism& m = p.model.mechanism;
   Workspace<double> w = make_workspace<double>(m);
@@ -182,11 +165,33 @@ bool keep_loose_journals(const Linkage& linkage, const State<double>& given, Pre
   return true;
 }
 
+// The smallest change that fits the closures may leave little of a velocity that was asked for.
+void warn_of_changed_velocities(const Linkage& linkage, const State<double>& given,
+                                Preparation& p) {
+  const Mechanism& m = p.model.mechanism;
+  double largest = 0.0;
+  for (const double v : given.v) largest = std::max(largest, std::abs(v));
+  const bool elastic = std::any_of(linkage.closures.begin(), linkage.closures.end(), [](auto& c) {
+    return c.model == ClosureModel::sde && c.sde.start == SdeStart::closed;
+  });
+  for (int k = 0; k < m.nv; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const double asked = given.v[i], got = p.model.start.v[i];
+    if (asked == 0.0 || std::abs(got - asked) <= kStatedVelocity * largest) continue;
+    p.warnings.push_back(velocity_name(m, k) + ": its initial velocity is " + number(got) +
+                         " instead of the given " + number(asked) +
+                         ", so that the closures stay shut: hold = true keeps it" +
+                         (elastic ? "; closure.*.sde.start = \"given\" lets an sde begin deflected "
+                                    "and moving"
+                                  : ""));
+  }
+}
+
 bool assemble(const Linkage& linkage, const std::vector<unsigned>& idle, const Model& closed,
               Preparation& p) {
   const State<double> given = p.model.start;
   p.assembly = assemble_start(closed, p.model.start);
-  const bool loose = keep_loose_journals(linkage, given, p);
+  const bool loose = keep_loose_journals(linkage, idle, given, p);
   const AssemblyReport& a = p.assembly;
   if (!a.closed) {
     fail(p, Cause::assembly_failed,
@@ -195,12 +200,12 @@ bool assemble(const Linkage& linkage, const std::vector<unsigned>& idle, const M
     return false;
   }
   if (!loose && !accept_velocities(a, p)) return false;
+  warn_of_changed_velocities(linkage, given, p);
   if (!loose && a.restarts > 0) {
     p.warnings.push_back("the given start did not lead to a closed pose; used restart " +
                          std::to_string(a.restarts) + ", " + number(a.displacement) +
                          " away. To begin there:" + pose_text(p.model));
   }
-  warn_of_velocities(linkage, p);
   warn_of_flipped(a, p);
   warn_of_redundancy(linkage, idle, p);
   return true;
@@ -215,20 +220,45 @@ Linkage with_ideal_bearings(const Linkage& linkage) {
   return ideal;
 }
 
-bool find_equilibrium(const Linkage& linkage, Preparation& p) {
+Linkage with_deflected_sdes(Linkage linkage) {
+  for (Closure& c : linkage.closures) c.sde.start = SdeStart::given;
+  return linkage;
+}
+
+// A run lets go of what statics holds.
+void warn_of_holding(const Model& at_rest, const StaticsReport& statics, Preparation& p) {
+  const double slight = kSlightEffort * force_scale(at_rest, statics.time);
+  for (const int k : at_rest.held) {
+    const double effort = statics.holding[k];
+    if (std::abs(effort) <= slight) continue;
+    p.warnings.push_back("the equilibrium holds " + velocity_name(at_rest.mechanism, k) + " with " +
+                         number(effort) + " " + effort_unit(at_rest.mechanism, k) +
+                         " (hold = true); a run lets it go");
+  }
+}
+
+bool find_equilibrium(const Linkage& linkage, double time, Preparation& p) {
   const Linkage ideal = with_ideal_bearings(linkage);
   const Model at_rest = compile(ideal, find_idle_directions(ideal));
   State<double> s = at_rest.start;  // with bristles of its own
-  s.t = p.model.start.t;
+  s.t = time;
   s.q = p.model.start.q;
   p.statics = solve_statics(at_rest, s);
   p.model.start.q = s.q;
   if (!p.statics->converged) {
+    const std::string& reason = p.statics->reason;
     fail(p, Cause::statics_failed,
-         "no static equilibrium after " + std::to_string(p.statics->iterations) +
-             " iterations: force residual " + number(p.statics->force_residual));
+         "no static equilibrium after " + std::to_string(p.statics->iterations) + " iterations: " +
+             (reason.empty() ? "force residual " + number(p.statics->force_residual) : reason));
     return false;
   }
+  if (p.statics->descended) {
+    p.warnings.push_back(
+        "there is no equilibrium near the given pose (a limit load is passed): the "
+        "one found downhill from there is " +
+        number(p.statics->displacement) + " rad or m away");
+  }
+  warn_of_holding(at_rest, *p.statics, p);
   if (p.statics->stability == Stability::unstable) {
     p.warnings.push_back("the static equilibrium at the start is unstable");
   }
@@ -276,6 +306,24 @@ double turn_of(const Model& model, const State<double>& s, std::size_t i) {
   return std::atan2(dot(y, w.closures[i].r1.z), dot(y, w.closures[i].r1.y));
 }
 
+// Half a turn ends the law of the rotation vector.
+void warn_of_large_turn(const Linkage& linkage, Preparation& p) {
+  const Mechanism& m = p.model.mechanism;
+  Workspace<double> w = make_workspace<double>(m);
+  compute_motion(m, p.model.parameters, p.model.start, w);
+  for (std::size_t i = 0; i < linkage.closures.size(); ++i) {
+    const Closure& c = linkage.closures[i];
+    const bool measured = c.model == ClosureModel::sde && c.sde.tilt == TiltMeasure::angle;
+    if (!measured || !m.closures[i].needs_frames) continue;
+    const Vec3<double> phi = rotation_vector(w.closures[i].r1, w.closures[i].r2).phi;
+    const double turn = std::sqrt(dot(phi, phi)) * 180.0 / std::numbers::pi;
+    if (turn <= kLargeTurn) continue;
+    p.warnings.push_back("closure '" + c.name + "': its ends are turned by " + number(turn) +
+                         " deg at the start; the moment of tilt = \"angle\" changes sign at 180 "
+                         "deg: turn one of the closure's frames nearer to the pose without moment");
+  }
+}
+
 // What is known here is the start: a run may still turn such a joint too far.
 void warn_of_tilt(const Linkage& linkage, Preparation& p) {
   for (std::size_t i = 0; i < linkage.closures.size(); ++i) {
@@ -299,23 +347,22 @@ Preparation prepare(const Linkage& linkage, const SimulationOptions& options) {
   Preparation p;
   const std::vector<unsigned> idle = find_idle_directions(linkage);
   p.model = compile(linkage, idle);
-  const Model closed = compile_closed(linkage);
+  const Model closed = compile_start(with_ideal_bearings(linkage));
   if (!assemble(linkage, idle, closed, p)) return p;
   resolve_damping(linkage, p.model.start, p.model);
   const std::vector<double> velocities = p.model.start.v;
   if (options.start == Start::equilibrium) {
-    if (!find_equilibrium(linkage, p)) return p;
+    if (!find_equilibrium(linkage, options.statics_time, p)) return p;
     p.model.start.v = velocities;
     // Statics moved the pose, still closed; velocities must fit the cut joints there.
-    if (p.model.mechanism.sde_rows.empty() &&
-        !accept_velocities(assemble_start(closed, p.model.start), p)) {
-      return p;
-    }
+    const Model exact = compile_start(with_deflected_sdes(with_ideal_bearings(linkage)));
+    if (!accept_velocities(assemble_start(exact, p.model.start), p)) return p;
   }
   slide_bristles(p.model);
   p.spectrum = compute_spectrum(p.model, p.model.start);
   warn_of_step(options, p);
   warn_of_tilt(linkage, p);
+  warn_of_large_turn(linkage, p);
   return p;
 }
 

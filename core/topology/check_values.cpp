@@ -75,6 +75,18 @@ void check_axes(const Closure& closure, RecordCheck& record) {
                 "use axes = \"first\", or stiffness (and damping) alike along x, y and z");
 }
 
+// The rotation vector of a joint that turns freely is no tilt.
+void check_tilt(const Closure& closure, RecordCheck& record) {
+  constexpr unsigned rotations = 1u << kPhi | 1u << kTheta | 1u << kPsi;
+  const unsigned blocked = blocked_directions(closure.type) & rotations;
+  if (closure.sde.tilt != TiltMeasure::angle || blocked == 0 || blocked == rotations) return;
+  record.report(
+      "sde.tilt",
+      "tilt = \"angle\" measures the whole turn between the ends, which this closure type "
+      "leaves free in part",
+      "use tilt = \"axis\", or give the closure the type fixed, prismatic or spherical");
+}
+
 void check_sde(const Closure& closure, RecordCheck& record) {
   static constexpr const char* kNames[kDirections] = {"x", "y", "z", "phi", "theta", "psi"};
   const Sde& sde = closure.sde;
@@ -97,6 +109,7 @@ void check_sde(const Closure& closure, RecordCheck& record) {
                   "use form = \"directional\"");
   }
   check_axes(closure, record);
+  check_tilt(closure, record);
   if (sde.form != SdeForm::three_springs) return;
   for (int i = 0; i < 3; ++i) record.require_unit("sde.directions", sde.directions.row(i).norm());
   if (!(std::abs(sde.directions.determinant()) > kRotationTolerance)) {

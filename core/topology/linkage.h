@@ -140,13 +140,21 @@ enum class Stabilization { none, baumgarte, projection };
 // centres; (b) a system of three elements along three given directions (full 3x3 stiffness).
 enum class SdeForm { directional, line_of_centres, three_springs };
 enum class SdeAxes { ground, first };
-enum class TiltMeasure { axis, linearized };
+// How a turn of {2,e} in {1,e}, R = R_1^T R_2, is measured about x, y, z. linearized ([Urbas16]
+// eq. (12)) and axis: sines of angles, entries of R; alone about one axis the moment of a stiffness
+// k is (k/2) sin 2 phi, at most k/2. angle: the rotation vector of R, with the moment k phi and the
+// energy k/2 phi^2 up to half a turn.
+enum class TiltMeasure { axis, linearized, angle };
+// closed: the stiff directions are shut when a run begins. given: they keep the deflection and the
+// rate that the joints of the tree give them.
+enum class SdeStart { closed, given };
 
 // Spring-damping element, [Urbas16] sec. 2. Arrays are indexed by Direction.
 struct Sde {
   SdeForm form = SdeForm::directional;
   SdeAxes axes = SdeAxes::ground;
   TiltMeasure tilt = TiltMeasure::axis;
+  SdeStart start = SdeStart::closed;
   std::array<double, kDirections> stiffness{};  // N/m and N m/rad; zero means free
   std::array<double, kDirections> damping{};    // N s/m and N m s/rad; unused with damping_ratio
   // b = 2 zeta sqrt(c m_eff) with m_eff = 1 / max eig(J M^-1 J^T) at the start, separately for the
@@ -215,6 +223,10 @@ struct Closure {
 
 // Directions that a joint of this type blocks, as a bit mask (bit d for Direction d).
 unsigned blocked_directions(JointType type);
+
+// Directions that a closure of model sde holds shut when a run begins: those with a stiffness among
+// the ones its type blocks; none with SdeStart::given. Three springs count in their own directions.
+unsigned shut_directions(const Closure& closure);
 
 // Course of a drive over time, value * f(t / duration): ramp f = min(s, 1); smooth
 // f = 3 s^2 - 2 s^3; constant f = 1; table: linear interpolation of (times, values), ends held.

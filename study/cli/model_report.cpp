@@ -1,6 +1,7 @@
 #include "study/cli/model_report.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -34,15 +35,100 @@ std::string mobility_text(const AssemblyReport& a, int velocities) {
   return text + ")";
 }
 
+constexpr const char* kStiffnessUnits[] = {"N/m", "N m/rad", "N m/rad"};
+
+std::string stiffness_unit(const StaticsReport& s) {
+  return kStiffnessUnits[static_cast<int>(s.unit)];
+}
+
+// What the number is: the least eigenvalue on the free directions, translations in extents.
+std::string stiffness_text(const StaticsReport& s) {
+  if (s.directions == 0) return "a structure: nothing can move";
+  std::string text;
+  if (s.neutral > 0) text = fmt::format("no stiffness in {} of {} ", s.neutral, s.directions);
+  if (s.neutral > 0) text += s.directions == 1 ? "direction" : "directions";
+  if (s.neutral < s.directions) {
+    text += fmt::format("{}smallest stiffness {:.4g} {}", s.neutral > 0 ? ", beside them " : "",
+                        s.smallest_beyond, stiffness_unit(s));
+  }
+  if (s.unit == StiffnessUnit::mixed) {
+    text += fmt::format(" (translations count over {:.3g} m)", s.extent);
+  }
+  return text;
+}
+
 std::string statics_text(const StaticsReport& s) {
   if (!s.converged) return fmt::format("not found in {} iterations", s.iterations);
-  return fmt::format("{}, smallest stiffness {:.4g}, force residual {:.3g} in {} iterations",
-                     kStability[static_cast<int>(s.stability)], s.smallest_stiffness,
+  return fmt::format("{}, {}, loads of t = {:.6g} s, force residual {:.3g} in {} iterations",
+                     kStability[static_cast<int>(s.stability)], stiffness_text(s), s.time,
                      s.force_residual, s.iterations);
+}
+
+// Joints whose friction statics leaves out.
+std::vector<std::string> joints_with_friction(const Mechanism& m) {
+  std::vector<std::string> names;
+  for (const JointFrictionStructure& f : m.frictions) {
+    names.push_back(m.joint_names[static_cast<std::size_t>(f.body)]);
+  }
+  return names;
+}
+
+std::string equilibrium_lines(const Preparation& preparation) {
+  std::string text = summary_line("equilibrium", statics_text(*preparation.statics));
+  const std::vector<std::string> joints = joints_with_friction(preparation.model.mechanism);
+  if (joints.empty()) return text;
+  return text + summary_line("left out", fmt::format("friction of joint {} (statics has none)",
+                                                     fmt::join(joints, ", ")));
 }
 
 Json number(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json equilibrium_json(const Preparation& preparation) {
+  const StaticsReport& s = *preparation.statics;
+  return {
+      {"time", s.time},
+      {"stability", kStability[static_cast<int>(s.stability)]},
+      {"free_directions", s.directions},
+      {"without_stiffness", s.neutral},
+      {"smallest_stiffness", s.directions > s.neutral ? number(s.smallest_beyond) : Json(nullptr)},
+      {"stiffness_unit", stiffness_unit(s)},
+      {"stiffness_extent", s.unit == StiffnessUnit::mixed ? number(s.extent) : Json(nullptr)},
+      {"force_residual", number(s.force_residual)},
+      {"closure_residual", number(s.closure_residual)},
+      {"displacement", number(s.displacement)},
+      {"iterations", s.iterations},
+      {"friction_left_out", joints_with_friction(preparation.model.mechanism)}};
+}
+
+Json outcome_object(const Preparation& preparation, const SimulationOutcome* outcome,
+                    double wall_s) {
+  const bool ran = outcome != nullptr;
+  const Cause cause = ran ? outcome->cause : preparation.cause;
+  const bool is_prepared = preparation.cause == Cause::ok;
+  const double nan = std::nan("");
+  const StepLimit unknown{nan, nan, nan};
+  const StepLimit limit =
+      !ran ? is_prepared ? worse({}, preparation.spectrum, 0.0) : unknown : outcome->step_limit;
+  return {{"status", cause == Cause::ok ? "done" : "failed"},
+          {"cause", name_of(cause)},
+          {"message", ran ? outcome->message : preparation.message},
+          {"end_time", number(ran ? outcome->end_time : 0.0)},
+          {"steps", ran ? outcome->steps : 0},
+          {"rejected", ran ? outcome->rejected : 0},
+          {"evaluations", ran ? outcome->evaluations : 0},
+          {"contacts", ran ? outcome->contacts : 0},
+          {"least_contact_steps", ran ? outcome->least_contact_steps : 0},
+          {"drift_max", number(ran ? outcome->drift_max : nan)},
+          {"energy_residual_max", number(ran ? outcome->energy_residual_max : nan)},
+          {"step_limit", number(limit.seconds)},
+          {"omega_max", number(limit.omega_max)},
+          {"wall_s", wall_s}};
+}
+
+std::string text_of(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace
@@ -56,7 +142,7 @@ std::string preparation_text(const std::string& file, const std::string& name,
   if (!preparation.assembly.closed) return text;
   text +=
       summary_line("mobility", mobility_text(preparation.assembly, preparation.model.mechanism.nv));
-  if (preparation.statics) text += summary_line("equilibrium", statics_text(*preparation.statics));
+  if (preparation.statics) text += equilibrium_lines(preparation);
   if (preparation.cause != Cause::ok) return text;
   text += summary_line("omega_max", fmt::format("{:.6g} rad/s at the start", spectrum.omega_max));
   text += summary_line("step", fmt::format("{:.6g} s, RK4 limit {:.4g} s, h omega_max {:.3g}", h,
@@ -151,28 +237,20 @@ std::string outcome_text(const SimulationOutcome& outcome, const SimulationOptio
 
 std::string outcome_json(const Preparation& preparation, const SimulationOutcome* outcome,
                          double wall_s) {
-  const bool ran = outcome != nullptr;
-  const Cause cause = ran ? outcome->cause : preparation.cause;
-  const bool is_prepared = preparation.cause == Cause::ok;
-  const double nan = std::nan("");
-  const StepLimit unknown{nan, nan, nan};
-  const StepLimit limit =
-      !ran ? is_prepared ? worse({}, preparation.spectrum, 0.0) : unknown : outcome->step_limit;
-  const Json json = {{"status", cause == Cause::ok ? "done" : "failed"},
-                     {"cause", name_of(cause)},
-                     {"message", ran ? outcome->message : preparation.message},
-                     {"end_time", number(ran ? outcome->end_time : 0.0)},
-                     {"steps", ran ? outcome->steps : 0},
-                     {"rejected", ran ? outcome->rejected : 0},
-                     {"evaluations", ran ? outcome->evaluations : 0},
-                     {"contacts", ran ? outcome->contacts : 0},
-                     {"least_contact_steps", ran ? outcome->least_contact_steps : 0},
-                     {"drift_max", number(ran ? outcome->drift_max : nan)},
-                     {"energy_residual_max", number(ran ? outcome->energy_residual_max : nan)},
-                     {"step_limit", number(limit.seconds)},
-                     {"omega_max", number(limit.omega_max)},
-                     {"wall_s", wall_s}};
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return text_of(outcome_object(preparation, outcome, wall_s));
+}
+
+std::string statics_json(const Preparation& preparation, const std::vector<StaticValue>& values,
+                         double wall_s) {
+  Json json = outcome_object(preparation, nullptr, wall_s);
+  if (preparation.cause != Cause::ok) return text_of(json);
+  json["equilibrium"] = equilibrium_json(preparation);
+  json["values"] = json["units"] = Json::object();
+  for (const StaticValue& value : values) {
+    json["values"][value.name] = number(value.value);
+    json["units"][value.name] = value.unit;
+  }
+  return text_of(json);
 }
 
 }  // namespace linkstudy

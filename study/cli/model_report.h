@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/simulation/prepare.h"
 #include "core/simulation/simulate.h"
@@ -20,8 +21,19 @@ std::string warning_text(const Preparation& preparation);
 std::string outcome_text(const SimulationOutcome& outcome, const SimulationOptions& options,
                          double wall_s);
 
-// The object of `simulate --json` and `statics --json`. Numbers that are not finite are null.
+// The object of `simulate --json`. Numbers that are not finite are null.
 std::string outcome_json(const Preparation& preparation, const SimulationOutcome* outcome,
+                         double wall_s);
+
+// A quantity of the equilibrium by its name.
+struct StaticValue {
+  std::string name;
+  double value;
+  std::string unit;
+};
+
+// The object of `statics --json`: that of a run, the equilibrium, and its values and units by name.
+std::string statics_json(const Preparation& preparation, const std::vector<StaticValue>& values,
                          double wall_s);
 
 }  // namespace linkstudy

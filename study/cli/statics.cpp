@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "core/base/isa.h"
+#include "core/dynamics/static_balance.h"
 #include "study/cli/exit_code.h"
 #include "study/cli/input.h"
 #include "study/cli/model_report.h"
@@ -19,7 +20,8 @@ std::vector<Channel> static_channels(const Mechanism& mechanism) {
   std::vector<Channel> channels;
   for (const Channel& channel : list_channels(mechanism)) {
     const bool is_wanted =
-        channel.quantity == Quantity::q || channel.quantity == Quantity::closure_force ||
+        channel.quantity == Quantity::q || channel.quantity == Quantity::joint_force ||
+        channel.quantity == Quantity::joint_torque || channel.quantity == Quantity::closure_force ||
         channel.quantity == Quantity::closure_torque || channel.quantity == Quantity::closure_gap ||
         channel.quantity == Quantity::point_position;
     if (is_wanted) channels.push_back(channel);
@@ -27,18 +29,42 @@ std::vector<Channel> static_channels(const Mechanism& mechanism) {
   return channels;
 }
 
-// Values at the equilibrium: a run of one step, seen at its start.
-std::string values_text(const Preparation& preparation, SimulationOptions options) {
-  const Model& model = preparation.model;
+// "joint.P.hold", "joint.U.hold.1": the effort of a hold along a coordinate, on the child.
+std::string hold_name(const Mechanism& m, int velocity) {
+  const auto body = static_cast<std::size_t>(m.velocities[static_cast<std::size_t>(velocity)].body);
+  const Body& b = m.bodies[body];
+  const std::string name = "joint." + m.joint_names[body] + ".hold";
+  return b.v_count == 1 ? name : fmt::format("{}.{}", name, velocity - b.v_begin);
+}
+
+// Values at the equilibrium: a run of one step, seen at its start, with what the holds bear as
+// loads, so that the start is at rest.
+std::vector<StaticValue> equilibrium_values(const Preparation& preparation,
+                                            SimulationOptions options) {
+  const StaticsReport& statics = *preparation.statics;
+  const Model model = with_holding_efforts(preparation.model, statics);
+  State<double> start = model.start;
+  start.t = statics.time;
   options.end_time = options.step;
   Observers observers;
   observers.series.push_back({static_channels(model.mechanism), {0, 0, 1}, {}});
-  simulate(model.mechanism, model.parameters, model.start, options, observers);
+  simulate(model.mechanism, model.parameters, start, options, observers);
   const Series& series = observers.series.front();
-  std::string text = "\n";
+  std::vector<StaticValue> values;
   for (std::size_t i = 0; i < series.values.size(); ++i) {
-    text += fmt::format("{:<28}{:>16.9g} {}\n", series.channels[i].name, series.values[i],
-                        series.channels[i].unit);
+    values.push_back({series.channels[i].name, series.values[i], series.channels[i].unit});
+  }
+  for (const int k : model.held) {
+    values.push_back(
+        {hold_name(model.mechanism, k), statics.holding[k], effort_unit(model.mechanism, k)});
+  }
+  return values;
+}
+
+std::string values_text(const std::vector<StaticValue>& values) {
+  std::string text = "\n";
+  for (const StaticValue& value : values) {
+    text += fmt::format("{:<28}{:>16.9g} {}\n", value.name, value.value, value.unit);
   }
   return text;
 }
@@ -67,10 +93,12 @@ int run_statics(const CommandLine& line) {
   print_err(warning_text(preparation));
   std::string text = preparation_text(line.inputs.front(), input.name, preparation, input.options);
   const bool is_ok = preparation.cause == Cause::ok;
-  if (is_ok) text += values_text(preparation, input.options);
+  std::vector<StaticValue> values;
+  if (is_ok) values = equilibrium_values(preparation, input.options);
+  if (is_ok) text += values_text(values);
   if (line.json) {
     fmt::print(stderr, "{}", text);
-    print_out(outcome_json(preparation, nullptr, wall_s) + "\n");
+    print_out(statics_json(preparation, values, wall_s) + "\n");
   } else {
     print_out(text);
   }

@@ -79,12 +79,23 @@ void add_sde_rows(Rows& rows) {
                   .meaning = "frame in which x y z are fixed: ground or the first end; by default "
                              "first for prismatic, cylindrical and planar, else ground",
                   .words = {"ground", "first"}});
-  rows.push_back({.path = sde + ".tilt",
+  rows.push_back(
+      {.path = sde + ".tilt",
+       .type = word,
+       .meaning = "measure of turns. axis (tilt of the x axis, at any turn of the joint) and "
+                  "linearized (joint turned up to 45 deg) take sines: alone about one axis the "
+                  "moment is (k/2) sin 2 phi, at most k/2, with the energy k/2 sin^2 phi. angle "
+                  "takes the rotation vector (x y z of first): moment k phi, energy k/2 phi^2 "
+                  "up to half a turn, where it changes sign; for fixed, prismatic, spherical",
+       .standard = "\"axis\"",
+       .words = {"axis", "linearized", "angle"}});
+  rows.push_back({.path = sde + ".start",
                   .type = word,
-                  .meaning = "measure of tilt: of the x axis (any rotation), or linearized (for "
-                             "turns of the joint up to 45 deg)",
-                  .standard = "\"axis\"",
-                  .words = {"axis", "linearized"}});
+                  .meaning = "closed: a run begins with the stiff directions (stiffness above 0 "
+                             "where the type blocks) shut and at rest; given: deflected and moving "
+                             "as the joints say",
+                  .standard = "\"closed\"",
+                  .words = {"closed", "given"}});
   rows.push_back({.path = sde + ".stiffness",
                   .type = number_or_table,
                   .meaning =

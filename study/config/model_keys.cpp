@@ -165,7 +165,8 @@ void add_joint_rows(Rows& rows) {
                   .unit = "rad/s|m/s"});
   rows.push_back({.path = "joint.*.initial.hold",
                   .type = boolean,
-                  .meaning = "assembly keeps position and velocity of this joint",
+                  .meaning = "assembly keeps position and velocity of this joint, statics its "
+                             "position (and reports what that takes); a run lets it go",
                   .standard = "false"});
   add_spring_rows(rows);
   add_joint_friction_rows(rows);
@@ -357,9 +358,17 @@ void add_simulation_rows(Rows& rows) {
   add_tolerance_rows(rows);
   rows.push_back({.path = s + ".start",
                   .type = word,
-                  .meaning = "given: as the joints say; equilibrium: statics first",
+                  .meaning = "given: as the joints say; equilibrium: statics first (joints with "
+                             "hold = true stay; friction is left out)",
                   .standard = "\"given\"",
                   .words = {"given", "equilibrium"}});
+  rows.push_back({.path = s + ".statics_time",
+                  .type = number,
+                  .meaning = "start = \"equilibrium\" and the verb statics: loads count with their "
+                             "value at this time; a run begins at t = 0 all the same",
+                  .unit = "s",
+                  .range = kNotNegative,
+                  .standard = "0.0"});
   rows.push_back({.path = s + ".output_interval",
                   .type = number,
                   .meaning = "time between samples of channels",

@@ -134,6 +134,7 @@ SimulationOptions read_options(Tree& model, Diagnostics& diagnostics) {
   options.step = number_of(*tree, "step", options.step);
   options.output_interval = number_of(*tree, "output_interval", options.output_interval);
   options.drift_limit = number_of(*tree, "drift_limit", options.drift_limit);
+  options.statics_time = number_of(*tree, "statics_time", options.statics_time);
   if (word_of(*tree, "start") == "equilibrium") options.start = Start::equilibrium;
   const std::string integrator = word_of(*tree, "integrator");
   if (integrator == "adaptive") options.integrator = Integrator::adaptive;

@@ -61,7 +61,10 @@ void read_sde(Tree& closure_table, Closure& closure, Diagnostics& diagnostics) {
   if (form == "line_of_centres") sde.form = SdeForm::line_of_centres;
   if (form == "three_springs") sde.form = SdeForm::three_springs;
   sde.axes = read_axes(*tree, closure.type);
-  if (word_of(*tree, "tilt") == "linearized") sde.tilt = TiltMeasure::linearized;
+  const std::string tilt = word_of(*tree, "tilt");
+  if (tilt == "linearized") sde.tilt = TiltMeasure::linearized;
+  if (tilt == "angle") sde.tilt = TiltMeasure::angle;
+  if (word_of(*tree, "start") == "given") sde.start = SdeStart::given;
   const double arm = number_of(*tree, "arm", 0.1);
   sde.stiffness = read_components(tree->find("stiffness"), closure.type, arm);
   sde.damping = read_components(tree->find("damping"), closure.type, arm);

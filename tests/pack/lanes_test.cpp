@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "tests/mechanisms/bushing.h"
 #include "tests/mechanisms/journal_in_bearing.h"
 #include "tests/mechanisms/n_four_bar.h"
 #include "tests/mechanisms/pendulum.h"
@@ -146,6 +147,11 @@ std::vector<Linkage> linkages() {
     all.push_back(random_closed_linkage(4, type, ClosureModel::sde));
   }
   for (const Linkage& loose : loose_linkages()) all.push_back(loose);
+  // Lanes find their rotation vectors by different entries of the quaternion.
+  for (const Eigen::Vector3d& turn : {Eigen::Vector3d(0.9, -1.1, 0.4), {0, 2.8, 0.3}, {0, 0, 0}}) {
+    all.push_back(bushing(
+        {.stiffness = {3, 8, 20}, .damping = {0.1, 0, 0.2}, .turn = turn, .rate = {40, -30, 50}}));
+  }
   return all;
 }
 

@@ -40,6 +40,23 @@ TEST(Elementary, Sine_and_cosine_of_random_angles_stay_within_the_documented_err
   }
 }
 
+TEST(Elementary, The_angle_of_a_quadrant_stays_within_the_documented_error) {
+  Random random(7);
+  double worst = 0.0;
+  for (const double reach : {1e-300, 1e-9, 0.1, 1.0, 3.0, 1e3, 1e12}) {
+    for (int k = 0; k < 100000; ++k) {
+      const double y = reach * std::fabs(random.within(1.0)), x = std::fabs(random.within(1.0));
+      if (x == 0.0) continue;
+      const long double exact = std::atan2(static_cast<long double>(y), x);
+      worst = std::max(worst, ulps(quadrant_angle(y, x), exact));
+    }
+  }
+  EXPECT_LT(worst, 2.0);
+  EXPECT_EQ(quadrant_angle(0.0, 1.0), 0.0);
+  EXPECT_EQ(quadrant_angle(1.0, 0.0), M_PI / 2);
+  EXPECT_EQ(quadrant_angle(1.0, 1.0), M_PI / 4);
+}
+
 TEST(Elementary, The_exponential_stays_within_the_documented_error_over_its_whole_range) {
   Random random(2);
   double worst = 0.0;

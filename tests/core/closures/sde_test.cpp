@@ -86,7 +86,8 @@ TEST(Sde, Its_generalised_force_is_the_downhill_gradient_of_its_energy) {
   for (const SdeForm form :
        {SdeForm::directional, SdeForm::line_of_centres, SdeForm::three_springs}) {
     for (const SdeAxes axes : {SdeAxes::ground, SdeAxes::first}) {
-      for (const TiltMeasure tilt : {TiltMeasure::axis, TiltMeasure::linearized}) {
+      for (const TiltMeasure tilt :
+           {TiltMeasure::axis, TiltMeasure::linearized, TiltMeasure::angle}) {
         for (std::uint64_t seed = 0; seed < 5; ++seed) {
           Linkage pair = sde_pair(seed, JointType::fixed, askew(form, axes, tilt), 0.3);
           for (Joint& joint : pair.joints) std::fill_n(joint.velocity.begin(), 6, 0.0);
@@ -203,7 +204,7 @@ TEST(Sde, Dampers_of_every_form_take_what_the_pair_loses) {
   for (const SdeForm form :
        {SdeForm::directional, SdeForm::line_of_centres, SdeForm::three_springs}) {
     for (const SdeAxes axes : {SdeAxes::ground, SdeAxes::first}) {
-      Sde sde = askew(form, axes, TiltMeasure::axis);
+      Sde sde = askew(form, axes, TiltMeasure::angle);
       for (int d = 0; d < kDirections; ++d) {
         sde.damping[static_cast<std::size_t>(d)] =
             0.02 * sde.stiffness[static_cast<std::size_t>(d)];

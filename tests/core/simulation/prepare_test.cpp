@@ -54,13 +54,13 @@ TEST(Prepare, Warns_of_a_linearized_tilt_where_the_joint_is_turned_beyond_45_deg
 
 TEST(Prepare, Warns_of_a_given_velocity_that_the_closures_do_not_leave) {
   Linkage right = four_bar();
-  EXPECT_EQ(warning_about("initial.velocity", right), "");
+  EXPECT_EQ(warning_about("initial velocity", right), "");
   Linkage wrong = right;
   wrong.joints[1].velocity = {2.0 * wrong.joints[1].velocity.at(0)};
-  EXPECT_THAT(warning_about("initial.velocity", wrong),
-              ::testing::HasSubstr("joint 'A': initial.velocity 5 does not fit the closures"));
+  EXPECT_THAT(warning_about("initial velocity", wrong),
+              ::testing::HasSubstr("instead of the given 5, so that the closures stay shut"));
   for (Joint& joint : wrong.joints) joint.velocity.clear();  // a proposal of nothing
-  EXPECT_EQ(warning_about("initial.velocity", wrong), "");
+  EXPECT_EQ(warning_about("initial velocity", wrong), "");
 }
 
 TEST(Prepare, Joints_that_hold_a_motion_twice_are_named) {

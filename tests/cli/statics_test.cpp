@@ -1,0 +1,174 @@
+// `statics` as a user meets it: the equilibrium by names, reactions, holds, what is left out, and
+// why there is none.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/program.h"
+
+namespace linkstudy::testing {
+namespace {
+
+using nlohmann::json;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+// Gravity leans by 20 deg: 9.81 sin 20 = 3.35522 m/s^2 along the rail x.
+constexpr const char* kIncline = R"(format = 1
+kind = "model"
+name = "block on incline"
+gravity = [3.3552176060248105, 0.0, -9.218384609909762]
+
+[[link]]
+name = "block"
+mass = 2.0
+center_of_mass = [0.0, 0.0, 0.0]
+inertia = [0.01, 0.01, 0.01]
+
+[[joint]]
+name = "P"
+type = "prismatic"
+parent = "ground"
+child = "block"
+frame = { rotation = { axis = [0, 1, 0], angle = "90 deg" } }
+child_frame = { rotation = { axis = [0, 1, 0], angle = "90 deg" } }
+initial = { velocity = [0.0], hold = true }
+friction = { mu_s = 0.5, mu_k = 0.4, stribeck_speed = 0.01, sigma0 = 1.0e5, sigma1 = 300.0 }
+
+[simulation]
+end_time = 0.1
+step = 1.0e-4
+start = "equilibrium"
+)";
+
+constexpr const char* kBushing = R"(format = 1
+kind = "model"
+name = "bushing"
+gravity = [0.0, 0.0, 0.0]
+
+[[link]]
+name = "b"
+mass = 1.0
+center_of_mass = [0.0, 0.0, 0.0]
+inertia = [0.1, 0.12, 0.15]
+
+[[joint]]
+name = "S"
+type = "spherical"
+parent = "ground"
+child = "b"
+
+[[closure]]
+name = "B"
+type = "fixed"
+first = { link = "b", position = [0.0, 0.0, 0.0] }
+second = { link = "ground", position = [0.0, 0.0, 0.0] }
+model = "sde"
+sde = { tilt = "angle", stiffness = { all = 1.0e5, phi = 5, theta = 5, psi = 5 } }
+
+[[load]]
+name = "T"
+type = "link_torque"
+link = "b"
+direction = [1.0, 0.0, 0.0]
+course = { shape = "ramp", value = 8.0, duration = 2.0 }
+
+[simulation]
+end_time = 0.01
+step = 0.001
+statics_time = 1.0
+)";
+
+class StaticsVerb : public Program {
+ protected:
+  StaticsVerb() {
+    write("incline.toml", kIncline);
+    write("bushing.toml", kBushing);
+  }
+  json object_of(const std::string& arguments) {
+    const Ended ended = run("statics " + arguments + " --json");
+    EXPECT_EQ(ended.code, 0) << ended.err;
+    return json::parse(ended.out);
+  }
+};
+
+TEST_F(StaticsVerb, A_held_block_is_reported_with_its_reaction_its_hold_and_friction_left_out) {
+  const json object = object_of("incline.toml");
+  const json& values = object["values"];
+  const double slope = 2.0 * 3.3552176060248105, press = 2.0 * 9.218384609909762;
+  EXPECT_EQ(values["joint.P.q"], 0.0);
+  EXPECT_NEAR(values["joint.P.hold"], -slope, 1e-12);
+  EXPECT_EQ(object["units"]["joint.P.hold"], "N");
+  EXPECT_NEAR(values["joint.P.force.x"], -slope, 1e-12);
+  EXPECT_NEAR(values["joint.P.force.z"], press, 1e-12);
+  EXPECT_EQ(object["equilibrium"]["stability"], "stable");
+  EXPECT_EQ(object["equilibrium"]["free_directions"], 0);
+  EXPECT_THAT(object["equilibrium"]["friction_left_out"], ElementsAre("P"));
+  const Ended text = run("statics incline.toml");
+  EXPECT_THAT(text.out, HasSubstr("friction of joint P"));
+  EXPECT_THAT(text.out, HasSubstr("a structure: nothing can move"));
+  EXPECT_THAT(text.out, HasSubstr("joint.P.hold"));
+  EXPECT_THAT(text.out, HasSubstr("joint.P.force.z"));
+}
+
+TEST_F(StaticsVerb, Without_a_hold_the_cause_names_what_nothing_bears) {
+  const Ended ended = run("statics incline.toml --set joint.P.initial.hold=false --json");
+  EXPECT_EQ(ended.code, 3);
+  const json object = json::parse(ended.out);
+  EXPECT_EQ(object["cause"], "statics_failed");
+  EXPECT_THAT(std::string(object["message"]),
+              HasSubstr("nothing holds against 6.71 N at joint.P (friction is left out)"));
+  EXPECT_FALSE(object.contains("values"));
+}
+
+TEST_F(StaticsVerb, Loads_count_with_their_value_at_the_time_of_statics) {
+  const json half = object_of("bushing.toml");
+  EXPECT_NEAR(half["values"]["joint.S.q.2"], 0.8, 1e-9);  // 4 N m on 5 N m/rad
+  EXPECT_NEAR(half["values"]["closure.B.torque.x"], -4.0, 1e-9);
+  EXPECT_EQ(half["equilibrium"]["time"], 1.0);
+  EXPECT_EQ(half["equilibrium"]["stiffness_unit"], "N m/rad");
+  EXPECT_NEAR(half["equilibrium"]["smallest_stiffness"], 5.0, 0.6);  // angles psi, theta, phi
+  const json rest = object_of("bushing.toml --set simulation.statics_time=0.0");
+  EXPECT_NEAR(rest["values"]["joint.S.q.2"], 0.0, 1e-12);
+  EXPECT_THAT(run("statics bushing.toml").out, HasSubstr("loads of t = 1 s"));
+}
+
+TEST_F(StaticsVerb, A_torque_beyond_the_largest_of_a_sine_is_a_failure_that_says_so) {
+  const Ended ended = run("statics bushing.toml --set closure.B.sde.tilt=axis --json");
+  EXPECT_EQ(ended.code, 3);
+  const std::string message = json::parse(ended.out)["message"];
+  EXPECT_THAT(message, HasSubstr("balance is missed by 1.5 N m"));
+  EXPECT_THAT(message, HasSubstr("tilt = \"angle\""));
+}
+
+TEST_F(StaticsVerb, A_study_varies_the_stiffness_of_a_bushing_measured_by_its_angle) {
+  write("study.toml", R"(format = 1
+kind = "study"
+name = "bushing"
+model = "bushing.toml"
+base = { set = { "simulation.start" = "equilibrium" } }
+
+[[vary]]
+parameter = "closure.B.sde.stiffness.phi"
+values = [4.0, 5.0, 8.0]
+
+[[response]]
+name = "turn"
+signal = "joint.S.q.2"
+reduce = "max"
+)");
+  const Ended ended = run("study study.toml -o out");
+  EXPECT_EQ(ended.code, 0) << ended.err << ended.out;
+  const json rows = json::parse(run("export out --format json").out)["rows"];
+  ASSERT_EQ(rows.size(), 3u);
+  // The run begins turned by 4 N m over the stiffness, and swings back as its loads begin at zero.
+  for (const auto& row : rows) {
+    const double stiffness = row["closure_B_sde_stiffness_phi"], turn = row["turn"];
+    EXPECT_NEAR(turn, 4.0 / stiffness, 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace linkstudy::testing
