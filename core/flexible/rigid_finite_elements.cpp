@@ -58,6 +58,7 @@ class DividedBeam {
                        beam_.young * beam_.second_moment_y / segment_,
                        beam_.shear * beam_.torsion_constant / segment_};
     joint.rest.assign(3, 0.0);
+    joint.elastic = true;
     joint.hold = true;  // a start is closed by the joints, not by bending links
     for (const double c : joint.stiffness) joint.damping.push_back(beam_.retardation * c);
     return joint;

@@ -188,7 +188,7 @@ class Compiler {
     body.v_count = m.nv - body.v_begin;
     for (int k = body.v_begin; k < m.nv; ++k) {
       m.v_parent.push_back(k > body.v_begin ? k - 1 : last_velocity(body.parent));
-      if (joint.hold) model_.held.push_back(k);
+      if (joint.hold && (shuts_sdes_ || !joint.elastic)) model_.held.push_back(k);
     }
     add_start(joint, body);
   }

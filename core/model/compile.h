@@ -11,8 +11,9 @@ namespace linkstudy {
 struct Model {
   Mechanism mechanism;
   Parameters<double> parameters;
-  State<double> start;    // as given; not yet assembled
-  std::vector<int> held;  // velocity indices of joints with hold = true
+  State<double> start;  // as given; not yet assembled
+  // Velocity indices of joints with hold = true; joints of flexible links in compile_start only.
+  std::vector<int> held;
 };
 
 // Precondition: check(linkage) is empty. Bodies follow the order of Linkage::joints wherever that

@@ -248,8 +248,9 @@ bool find_equilibrium(const Linkage& linkage, double time, Preparation& p) {
   if (!p.statics->converged) {
     const std::string& reason = p.statics->reason;
     fail(p, Cause::statics_failed,
-         "no static equilibrium after " + std::to_string(p.statics->iterations) + " iterations: " +
-             (reason.empty() ? "force residual " + number(p.statics->force_residual) : reason));
+         "no static equilibrium after " + std::to_string(p.statics->iterations) +
+             " iterations, force residual " + number(p.statics->force_residual) +
+             (reason.empty() ? "" : ": " + reason));
     return false;
   }
   if (p.statics->descended) {

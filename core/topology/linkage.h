@@ -112,7 +112,8 @@ struct Joint {
   double pitch = 0.0;            // screw: advance per radian, m/rad
   std::vector<double> position;  // (nq) start, possibly approximate; empty: zero (identity)
   std::vector<double> velocity;  // (nv) start; empty: zero
-  bool hold = false;             // assembly keeps position and velocity of this joint
+  bool hold = false;             // assembly keeps position and velocity, statics the position
+  bool elastic = false;          // of a flexible link: statics bends it though assembly does not
   // Spring and damper on every coordinate, generalised force -c (q - rest) - b v; empty: none.
   // Not for quaternions.
   std::vector<double> stiffness;  // (nv) c, N/m or N m/rad
