@@ -12,7 +12,7 @@ namespace linkstudy {
 struct ResultsTableOptions {
   // Names in the wanted order: paths of parameters, names of responses, evaluation, status,
   // message, attempts, parent_evaluation, wall_s, rank, host. Empty: evaluation, all parameters
-  // and responses, status; message and parent_evaluation where any row has one.
+  // and responses, status, message; parent_evaluation where any row has one.
   std::vector<std::string> columns;
 };
 
