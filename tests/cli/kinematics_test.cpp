@@ -235,6 +235,15 @@ TEST_F(Kinematics, Tells_the_branches_of_a_four_bar_apart) {
   EXPECT_EQ(open["branch"].get<int>() * crossed["branch"].get<int>(), -1);
 }
 
+TEST_F(Kinematics, Fails_where_two_drives_of_one_freedom_contradict_each_other) {
+  const std::string options = "--drive joint.A=1:1.3 --drive joint.D=1.7892514033875249:2.5";
+  const Ended ended = analyse("four_bar", options);
+  EXPECT_EQ(ended.code, 3);
+  EXPECT_THAT(ended.out, HasSubstr("joint.A, joint.D contradict each other"));
+  EXPECT_EQ(object("four_bar", options)["contradiction"], true);
+  EXPECT_EQ(object("four_bar")["contradiction"], false);
+}
+
 TEST_F(Kinematics, Drives_the_joints_of_the_model_file) {
   const json j = object("stewart");
   EXPECT_EQ(j["drives"].size(), 6u);
