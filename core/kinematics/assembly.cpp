@@ -11,6 +11,7 @@
 #include "core/kinematics/closure_jacobian.h"
 #include "core/kinematics/cut_joint.h"
 #include "core/kinematics/scaled_closures.h"
+#include "core/kinematics/three_turns.h"
 #include "core/numerics/rank.h"
 
 namespace linkstudy {
@@ -85,16 +86,20 @@ std::vector<AxisPair> aligned_axes(const Model& model, Workspace<double>& w, std
   return pairs;
 }
 
-std::vector<std::size_t> flipped_closures(const Model& model, const State<double>& s) {
+struct Flipped {
+  std::size_t closure;
+  bool is_turned;  // it holds the whole orientation: its ends are another way round than described
+};
+std::vector<Flipped> flipped_closures(const Model& model, const State<double>& s) {
   const Mechanism& m = model.mechanism;
   Workspace<double> w = make_workspace<double>(m);
   update_kinematics(m, model.parameters, s.q.data(), s.v.data(), w);
-  std::vector<std::size_t> flipped;
+  std::vector<Flipped> flipped;
   for (std::size_t i = 0; i < m.closures.size(); ++i) {
     const std::vector<AxisPair> pairs = aligned_axes(model, w, i);
     const bool opposite = std::any_of(
         pairs.begin(), pairs.end(), [](const AxisPair& p) { return p.first.dot(p.second) < 0.0; });
-    if (opposite) flipped.push_back(i);
+    if (opposite) flipped.push_back({i, pairs.size() > 1});
   }
   return flipped;
 }
@@ -187,21 +192,36 @@ double distance(const Mechanism& m, const State<double>& a, const State<double>&
   return std::sqrt(square);
 }
 
-void find_branch(const Model& model, const MatrixXd& jacobian, AssemblyReport& report) {
+// As many columns as rows, each with the largest part independent of those before; of equal ones
+// the first, so that rounding does not choose. Rising.
+std::vector<int> independent_columns(MatrixXd j) {
+  constexpr double kEqual = 1e-6;
+  std::vector<int> chosen;
+  for (Eigen::Index i = 0; i < j.rows(); ++i) {
+    const VectorXd sizes = j.colwise().norm();
+    Eigen::Index k = 0;
+    while (sizes[k] < (1.0 - kEqual) * sizes.maxCoeff()) ++k;
+    const VectorXd direction = j.col(k).normalized();
+    j -= direction * (direction.transpose() * j);
+    j.col(k).setZero();
+    chosen.push_back(static_cast<int>(k));
+  }
+  std::sort(chosen.begin(), chosen.end());
+  return chosen;
+}
+
+void find_branch(const Model& model, const State<double>& s, const MatrixXd& jacobian,
+                 AssemblyReport& report) {
   report.rows = static_cast<int>(jacobian.rows());
   report.rank = numerical_rank(jacobian, kRankTolerance).rank;
   report.mobility = model.mechanism.nv - report.rank;
   if (report.rank == 0 || report.rank < report.rows) return;
   const std::vector<int> free = free_velocities(model);
-  const MatrixXd j = take_columns(jacobian, free);
+  const MatrixXd j = take_columns_by_turns(model, s, jacobian, free);
   if (j.cols() < j.rows()) return;
-  const Eigen::ColPivHouseholderQR<MatrixXd> qr(j);
-  std::vector<int> chosen;
-  for (Eigen::Index i = 0; i < j.rows(); ++i) {
-    chosen.push_back(free[static_cast<std::size_t>(qr.colsPermutation().indices()[i])]);
-  }
-  std::sort(chosen.begin(), chosen.end());
-  const double det = take_columns(jacobian, chosen).determinant();
+  std::vector<int> chosen = independent_columns(j);  // places among the free ones
+  const double det = take_columns(j, chosen).determinant();
+  for (int& k : chosen) k = free[static_cast<std::size_t>(k)];
   report.dependent = chosen;
   report.branch = det > 0.0 ? 1 : det < 0.0 ? -1 : 0;
 }
@@ -264,7 +284,27 @@ Closing search(const Model& model, const ClosureScale& scale, const std::vector<
   return best;
 }
 
+// Closed by its equations, but another way round.
+std::string turned_text(const std::vector<std::string>& closures) {
+  std::string text;
+  for (const std::string& name : closures)
+    text += (text.empty() ? "closure." : ", closure.") + name;
+  return text +
+         ": its ends are turned against each other by half a turn, which is not the joint that is "
+         "described; turn one of its frames by 180 deg, or start nearer to the pose you mean";
+}
+
 }  // namespace
+
+std::vector<std::string> flipped_texts(const AssemblyReport& report) {
+  std::vector<std::string> texts;
+  for (const std::string& name : report.flipped) {
+    texts.push_back("closure '" + name +
+                    "': the axes of its two ends point against each other at the start; turn one "
+                    "of its frames by 180 deg, or start nearer to the pose you mean");
+  }
+  return texts;
+}
 
 std::string open_text(const AssemblyReport& report) {
   constexpr double kSlight = 1e-3;  // m and rad: dimensions are rounded
@@ -273,6 +313,7 @@ std::string open_text(const AssemblyReport& report) {
     text << std::setprecision(3) << x;
     return text.str();
   };
+  if (report.worst_closure.empty()) return turned_text(report.turned);
   std::string text = "closure." + report.worst_closure + " stays open: gap " +
                      number(report.worst_gap) + " m, axes apart by " + number(report.worst_tilt) +
                      " rad";
@@ -349,13 +390,14 @@ AssemblyReport assemble_start(const Model& closed, State<double>& start) {
     report.displacement = distance(m, given, start);
   }
   report.closed = scaled <= kClosedTolerance;
-  for (const std::size_t i : flipped_closures(closed, start)) {
-    report.flipped.push_back(m.closure_names[i]);
+  for (const Flipped& f : flipped_closures(closed, start)) {
+    (f.is_turned ? report.turned : report.flipped).push_back(m.closure_names[f.closure]);
   }
-  find_branch(closed, e.jacobian, report);
+  report.closed = report.closed && report.turned.empty();
+  find_branch(closed, start, e.jacobian, report);
   if (report.closed) {
     assemble_velocities(closed, e.jacobian, start, report);
-  } else {
+  } else if (scaled > kClosedTolerance) {
     name_worst_closure(closed, e.residual, report);
   }
   return report;

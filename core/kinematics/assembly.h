@@ -6,7 +6,9 @@
 // deterministic restarts around it are tried, nearest first.
 // Rotation rows vanish for opposite axes too. A closed pose in which the axes of a closure point
 // against each other (x_1 . x_2 < 0 where the closure aligns x, y_1 . y_2 < 0 where it aligns y) is
-// taken only if none with aligned axes is found; the report names such closures.
+// taken only if none with aligned axes is found. Where the closure aligns x alone it is the same
+// joint either way: the report names it (`flipped`). Where it holds the whole orientation the ends
+// are half a turn from what is described: that pose does not count as closed (`turned`).
 // Velocities: the smallest change of the free velocities that gives J v = 0.
 // Which rows there are is the model's: compile_closed takes every closure as the exact joint of its
 // type, compile_start (core/model) of replacement joints what must be shut when a run begins.
@@ -32,13 +34,15 @@ struct AssemblyReport {
   int rank = 0;      // independent ones at the start
   int mobility = 0;  // nv - rank at the start
   // Which of the closed poses this is: the sign of the determinant of the closure equations with
-  // respect to the `dependent` velocities; 0 where rank < rows or at a singular pose.
+  // respect to the `dependent` velocities; 0 where rank < rows or at a singular pose. Joints with
+  // three turns count by their angular velocity in the child frame, whatever their coordinates.
   int branch = 0;
-  std::vector<int> dependent;        // velocity indices
-  std::string worst_closure;         // largest residual, if not closed
-  double worst_gap = 0.0;            // of it, m
-  double worst_tilt = 0.0;           // of its axes, rad
-  std::vector<std::string> flipped;  // closures whose axes are opposite at the returned start
+  std::vector<int> dependent;  // velocity indices
+  std::string worst_closure;   // largest residual, if not closed
+  double worst_gap = 0.0;      // of it, m
+  double worst_tilt = 0.0;     // of its axes, rad
+  // Closures whose axis is opposite at the returned start, and those turned by half a turn.
+  std::vector<std::string> flipped, turned;
 };
 
 // Norm of r, rows in metres over the extent of the mechanism (scaled_closures.h), below which a
@@ -56,6 +60,8 @@ Model compile_closed(const Linkage& linkage);
 
 // What is open, in words, and what may be wrong: "closure.C stays open: gap 0.003 m, ..."
 std::string open_text(const AssemblyReport& report);
+// A sentence for every flipped closure.
+std::vector<std::string> flipped_texts(const AssemblyReport& report);
 
 // Moves `start` (positions and velocities) of the compiled closed linkage.
 AssemblyReport assemble_start(const Model& closed, State<double>& start);

@@ -3,6 +3,8 @@
 #include <Eigen/Dense>
 #include <algorithm>
 
+#include "core/kinematics/three_turns.h"
+
 namespace linkstudy {
 namespace {
 
@@ -262,7 +264,8 @@ double DrivenLinkage::quality(const State<double>& s) const {
 
 int DrivenLinkage::branch(const State<double>& s) const {
   if (branch_rows_.empty() || quality(s) < kSingularQuality) return 0;
-  const MatrixXd m = dependent_jacobian(s);
+  const MatrixXd j = compute_scaled_closures(*closed_, scale_, s).jacobian;
+  const MatrixXd m = take_columns_by_turns(*closed_, s, j, dependent_);
   return take_columns(m.transpose(), branch_rows_).determinant() > 0.0 ? 1 : -1;
 }
 

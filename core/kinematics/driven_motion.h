@@ -97,7 +97,8 @@ class DrivenLinkage {
   DriveRanks ranks(const State<double>& s, double tolerance) const;
 
   // Which of the closed poses at these drives this is: the sign of the determinant of M, of the
-  // rows that are not always zero. 0 at singular poses and where this M is not square.
+  // rows that are not always zero, joints with three turns counted by their angular velocity
+  // (three_turns.h). 0 at singular poses and where this M is not square.
   int branch(const State<double>& s) const;
 
   // Joints that can move while the drives rest, judged by the weakest direction of M.

@@ -62,18 +62,17 @@ class IdleSearch {
   std::vector<IdleFreedom> run() const {
     std::vector<IdleFreedom> found;
     if (motions_.cols() == 0) return found;
-    std::vector<int> single(static_cast<std::size_t>(mechanism_.body_count()), 0);
-    for (int b = 1; b < mechanism_.body_count(); ++b) {
-      const int count = is_inside({b}) ? count_motions({b}) : 0;
-      single[static_cast<std::size_t>(b)] = count;
-      if (count > 0) found.push_back(describe({b}, count));
-    }
-    for (const Connection& c : connections_) {
-      const bool is_new = c.first > 0 && single[static_cast<std::size_t>(c.first)] == 0 &&
-                          single[static_cast<std::size_t>(c.second)] == 0;
-      const std::vector<int> pair = {c.first, c.second};
-      const int count = is_new && is_inside(pair) ? count_motions(pair) : 0;
-      if (count > 0) found.push_back(describe(pair, count));
+    std::vector<std::vector<int>> idle;  // groups found
+    std::vector<std::vector<int>> groups;
+    for (int b = 1; b < mechanism_.body_count(); ++b) groups.push_back({b});
+    for (; !groups.empty(); groups = longer_groups(groups)) {
+      std::erase_if(groups, [&](const auto& group) { return holds_one_of(group, idle); });
+      for (const std::vector<int>& group : groups) {
+        const int count = is_inside(group) ? count_motions(group) : 0;
+        if (count == 0) continue;
+        found.push_back(describe(group, count));
+        idle.push_back(group);
+      }
     }
     return found;
   }
@@ -92,12 +91,59 @@ class IdleSearch {
     return boundary;
   }
 
-  // Held at two joints or more, none of them on ground.
+  static bool holds_one_of(const std::vector<int>& group,
+                           const std::vector<std::vector<int>>& smaller) {
+    return std::any_of(smaller.begin(), smaller.end(), [&](const std::vector<int>& inner) {
+      return std::all_of(inner.begin(), inner.end(), [&](int b) { return contains(group, b); });
+    });
+  }
+
+  int connection_count(int body) const {
+    return static_cast<int>(
+        std::count_if(connections_.begin(), connections_.end(),
+                      [&](const Connection& c) { return c.first == body || c.second == body; }));
+  }
+
+  // Pairs of all joined links; beyond, rows of links that are joined to two others each.
+  bool may_grow(const std::vector<int>& group, int body) const {
+    const auto is_in_a_row = [&](int b) { return connection_count(b) == 2; };
+    return group.size() == 1 ||
+           (is_in_a_row(body) && std::all_of(group.begin(), group.end(), is_in_a_row));
+  }
+
+  // Each group with one more link that is joined to it.
+  std::vector<std::vector<int>> longer_groups(const std::vector<std::vector<int>>& groups) const {
+    std::vector<std::vector<int>> longer;
+    for (const std::vector<int>& group : groups) {
+      for (const Connection& c : boundary_of(group)) {
+        const int next = contains(group, c.first) ? c.second : c.first;
+        if (next == 0 || !may_grow(group, next)) continue;
+        std::vector<int> larger = group;
+        larger.push_back(next);
+        std::sort(larger.begin(), larger.end());
+        if (std::find(longer.begin(), longer.end(), larger) == longer.end()) {
+          longer.push_back(std::move(larger));
+        }
+      }
+    }
+    return longer;
+  }
+
+  // Held at two joints or more, on both sides by others, of which ground is one at most: a link
+  // between ground and ground is the linkage itself. Links welded to ground are ground.
   bool is_inside(const std::vector<int>& group) const {
     const std::vector<Connection> boundary = boundary_of(group);
     return boundary.size() > 1 &&
-           std::none_of(boundary.begin(), boundary.end(),
-                        [](const Connection& c) { return c.first == 0 || c.second == 0; });
+           std::any_of(boundary.begin(), boundary.end(), [&](const Connection& c) {
+             return !is_ground(contains(group, c.first) ? c.second : c.first);
+           });
+  }
+
+  bool is_ground(int body) const {
+    while (body > 0 && mechanism_.bodies[static_cast<std::size_t>(body)].v_count == 0) {
+      body = mechanism_.bodies[static_cast<std::size_t>(body)].parent;
+    }
+    return body == 0;
   }
 
   // Dimension of the null motions in which the group moves as one body and all others rest.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/kinematics/pose_curve.h"
+#include "core/kinematics/three_turns.h"
 #include "core/numerics/bracketed_root.h"
 
 namespace linkstudy {
@@ -32,6 +33,7 @@ SingularPosition describe_singular(const DrivenLinkage& linkage, double time,
   p.regular_rank = linkage.rank();
   p.joints = linkage.loose_joints(s);
   p.kind = kind_of(p);
+  p.angles = singular_angles(linkage.model().mechanism, s.q);
   return p;
 }
 

@@ -25,6 +25,9 @@ struct SingularPosition {
   DriveRanks ranks;                 // there
   int regular_rank = 0;             // of M where it is largest
   std::vector<std::string> joints;  // that can move while the drives rest
+  // Angles that are singular there (three_turns.h): then it is one of the coordinates, perhaps not
+  // of the linkage.
+  std::vector<std::string> angles;
 };
 
 // Judges a pose by its ranks.

@@ -11,6 +11,7 @@
 #include "core/dynamics/static_balance.h"
 #include "core/kinematics/idle_rows.h"
 #include "core/kinematics/mobility.h"
+#include "core/kinematics/three_turns.h"
 #include "core/numerics/rank.h"
 #include "core/simulation/simulate.h"
 #include "core/spatial/rotation_vector.h"
@@ -137,14 +138,6 @@ std::string pose_text(const Model& model) {
   return text;
 }
 
-void warn_of_flipped(const AssemblyReport& a, Preparation& p) {
-  for (const std::string& name : a.flipped) {
-    p.warnings.push_back("closure '" + name +
-                         "': the axes of its two ends point against each other at the start; turn "
-                         "one of its frames by 180 deg, or start nearer to the pose you mean");
-  }
-}
-
 // Closed but for the clearances, the journals within their bearings: then that is what is meant.
 // Otherwise a run begins with journals in the middle.
 bool keep_loose_journals(const Linkage& linkage, const std::vector<unsigned>& idle,
@@ -206,7 +199,7 @@ bool assemble(const Linkage& linkage, const std::vector<unsigned>& idle, const M
                          std::to_string(a.restarts) + ", " + number(a.displacement) +
                          " away. To begin there:" + pose_text(p.model));
   }
-  warn_of_flipped(a, p);
+  for (std::string& text : flipped_texts(a)) p.warnings.push_back(std::move(text));
   warn_of_redundancy(linkage, idle, p);
   return true;
 }
@@ -247,10 +240,12 @@ bool find_equilibrium(const Linkage& linkage, double time, Preparation& p) {
   p.model.start.q = s.q;
   if (!p.statics->converged) {
     const std::string& reason = p.statics->reason;
+    const std::string angles =
+        singular_angles_text(singular_angles(p.model.mechanism, p.model.start.q));
     fail(p, Cause::statics_failed,
          "no static equilibrium after " + std::to_string(p.statics->iterations) +
              " iterations, force residual " + number(p.statics->force_residual) +
-             (reason.empty() ? "" : ": " + reason));
+             (reason.empty() ? "" : ": " + reason) + (angles.empty() ? "" : "; " + angles));
     return false;
   }
   if (p.statics->descended) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/kinematics/three_turns.h"
 #include "core/simulation/kernels.h"
 #include "core/simulation/located_run.h"
 #include "core/simulation/looks.h"
@@ -172,10 +173,21 @@ class Packed {
     o.final_state.z.assign(v + m_.nv, v + m_.nv + m_.nz);
     o.final_state.supplied = y[y.size() - 2];
     o.final_state.dissipated = y[y.size() - 1];
+    o.message += angles_note(o);
     for (std::size_t k = 0; k < samples_[i].size(); ++k) {
       auto& s = cases_[i].observers->series[k];
       s.values.resize(samples_[i][k] * s.channels.size());
     }
+  }
+
+  // A run that is lost where the angles of a ball joint fail says so.
+  std::string angles_note(const SimulationOutcome& o) const {
+    const bool is_lost = o.cause == Cause::diverged || o.cause == Cause::energy_blowup ||
+                         o.cause == Cause::constraint_drift || o.cause == Cause::step_too_coarse;
+    if (!is_lost) return {};
+    const std::string text =
+        singular_angles_text(lost_angles(m_, o.final_state.q, o.final_state.v));
+    return text.empty() ? text : "; " + text;
   }
 
   const Mechanism& m_;

@@ -32,7 +32,8 @@ int run_kinematics(const CommandLine& line) {
     print_out(text);
   }
   if (line.json) print_out(kinematics_json(result) + "\n");
-  const bool is_followed = !result.driven || !result.cycle.poses.empty();
+  const bool is_followed = (!result.driven || !result.cycle.poses.empty()) &&
+                           !contradicts(result) && !ends_at_singular_angles(result);
   return result.assembly.closed && is_followed ? kDone : kTooManyFailed;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/kinematics/three_turns.h"
 #include "study/cli/output.h"
 
 namespace linkstudy {
@@ -32,6 +33,12 @@ std::string position_text(const Drive& drive, double value) {
                      : fmt::format("{:.9g} m", value);
 }
 
+int idle_count(const MobilityReport& r) {
+  int count = 0;
+  for (const IdleFreedom& idle : r.idle) count += idle.count;
+  return count;
+}
+
 // What the numbers mean for the designer.
 std::string verdict(const KinematicsResult& result) {
   const MobilityReport& r = result.mobility;
@@ -43,6 +50,8 @@ std::string verdict(const KinematicsResult& result) {
   }
   if (r.mobility == 0) return "a structure: nothing moves";
   std::string text = plural(r.mobility, "freedom", "freedoms");
+  if (const int idle = idle_count(r); idle > 0) text += fmt::format(", {} of them idle", idle);
+  if (contradicts(result)) text += "; the drives contradict each other";
   if (r.redundant > 0) {
     text += fmt::format("; overconstrained by {}: moves only as long as its dimensions are exact",
                         r.redundant);
@@ -76,8 +85,9 @@ std::string redundant_text(const MobilityReport& r) {
 }
 
 std::string idle_text(const IdleFreedom& idle) {
-  return fmt::format("{} moves alone between {}", fmt::join(idle.links, " with "),
-                     fmt::join(idle.joints, " and "));
+  const std::string count = idle.count > 1 ? fmt::format(" ({} freedoms)", idle.count) : "";
+  return fmt::format("{} moves alone between {}{}", fmt::join(idle.links, " with "),
+                     fmt::join(idle.joints, " and "), count);
 }
 
 // All drives at a position of the course.
@@ -98,9 +108,10 @@ std::string singular_text(const std::vector<Drive>& drives, const SingularPositi
                          : "stops: could not be followed beyond";
   const std::string rests =
       drives.size() == 1 ? drives.front().name + " rests" : std::string("the drives rest");
-  return fmt::format("{} {}; {} may move while {} (h = {}, h_R = {} of {})", what,
+  const std::string angles = singular_angles_text(p.angles);
+  return fmt::format("{} {}; {} may move while {} (h = {}, h_R = {} of {}){}", what,
                      drives_text(drives, p.drive), fmt::join(p.joints, ", "), rests, p.ranks.h,
-                     p.ranks.h_r, p.regular_rank);
+                     p.ranks.h_r, p.regular_rank, angles.empty() ? "" : "; " + angles);
 }
 
 const char* name_of(MotionLaw law) {
@@ -133,15 +144,27 @@ std::string drive_text(const Drive& drive, const DriveCourse& course, double dur
   return range(*course.from, *course.to, "to");
 }
 
-std::string notes_text(const DrivenLinkage& driven) {
+std::string drive_names(const std::vector<Drive>& drives) {
+  std::vector<std::string> names;
+  for (const Drive& drive : drives) names.push_back(drive.name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::string overdriven_text(const DrivenLinkage& driven, bool is_complete) {
+  const std::string names = drive_names(driven.drives());
+  if (driven.drives().size() == 1) return names + " cannot move";
+  if (is_complete) return names + ": more drives than freedoms, but their courses fit each other";
+  return names +
+         " contradict each other or the closures: together they cannot move; leave one of them out";
+}
+
+std::string notes_text(const DrivenLinkage& driven, bool is_complete) {
   std::string text;
   if (driven.releases_holds()) {
     text += summary_line("note", "hold = true is left aside: the drives could not move");
   }
   if (driven.is_overdriven()) {
-    text += summary_line("note",
-                         "the drives contradict each other or the closures: together they "
-                         "cannot move");
+    text += summary_line("note", overdriven_text(driven, is_complete));
   }
   if (driven.undetermined() > 0) {
     text += summary_line("note",
@@ -159,7 +182,7 @@ std::string course_text(const KinematicsResult& result) {
   for (std::size_t i = 0; i < drives.size(); ++i) {
     text += summary_line("drive", drive_text(drives[i], path.courses()[i], path.duration()));
   }
-  text += notes_text(*result.driven);
+  text += notes_text(*result.driven, cycle.is_complete);
   if (!cycle.is_reached) text += summary_line("course", "its begin cannot be reached");
   if (cycle.is_reached) {
     text += summary_line(
@@ -209,7 +232,8 @@ Json singular_json(const KinematicsResult& result) {
                    {"h", p.ranks.h},
                    {"h_R", p.ranks.h_r},
                    {"regular_rank", p.regular_rank},
-                   {"joints", p.joints}});
+                   {"joints", p.joints},
+                   {"singular_angles", p.angles}});
   }
   return all;
 }
@@ -264,10 +288,14 @@ std::string equations_text(const KinematicsResult& result) {
                            plural(r.coordinates, "coordinate", "coordinates")));
   text += summary_line("rank", rank_text(r));
   if (!result.assembly.closed) return text;
-  const char* state = r.state == SingularState::none ? "regular"
-                      : r.state == SingularState::permanent
-                          ? "permanent singular state: equations are redundant everywhere"
-                          : "instantaneous singular state: equations are redundant here only";
+  const char* state =
+      r.state == SingularState::none ? "regular"
+      : r.state == SingularState::permanent
+          ? "permanent singular state: equations are redundant everywhere"
+      : r.redundant > 0      ? "instantaneous singular state: equations are redundant everywhere, "
+                               "more of them here"
+      : r.rank.rank < r.rows ? "instantaneous singular state: equations are redundant here only"
+                             : "instantaneous singular state: joints give way to first order only";
   text += summary_line("state", state);
   for (const LoopResult& loop : result.loops) text += summary_line("loop", loop_text(loop));
   if (!result.driven) return text;
@@ -291,6 +319,9 @@ std::string kinematics_text(const std::string& file, const std::string& name,
   if (result.assembly.closed && result.assembly.displacement > kMoved) {
     text += summary_line(
         "start", fmt::format("moved by {:.3g} (rad, m) to close", result.assembly.displacement));
+  }
+  for (const std::string& flipped : flipped_texts(result.assembly)) {
+    text += summary_line("warning", flipped);
   }
   if (result.assembly.closed && r.redundant > 0) {
     text += summary_line("redundant", redundant_text(r));
@@ -318,6 +349,7 @@ std::string kinematics_json(const KinematicsResult& result) {
                {"singular_positions", singular_json(result)},
                {"basic_loops", loops_json(result)},
                {"closed", result.assembly.closed},
+               {"flipped", result.assembly.flipped},
                {"verdict", verdict(result)}};
   if (result.driven) {
     json["drive"] = result.course->drives.front().name;
@@ -328,6 +360,7 @@ std::string kinematics_json(const KinematicsResult& result) {
     json["branch"] = result.branch;
     json["positions"] = result.cycle.poses.size();
     json["complete"] = result.cycle.is_complete;
+    json["contradiction"] = contradicts(result);
   }
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

@@ -38,6 +38,17 @@ LoopResult analyse_loop(const Model& closed, const ClosureScale& scale, const Ba
 
 }  // namespace
 
+bool contradicts(const KinematicsResult& result) {
+  return result.driven && result.driven->is_overdriven() && !result.cycle.is_complete &&
+         result.driven->drives().size() > 1;
+}
+
+bool ends_at_singular_angles(const KinematicsResult& result) {
+  const auto& singular = result.cycle.singular;
+  return result.driven && !result.cycle.is_complete && !singular.empty() &&
+         !singular.back().angles.empty();
+}
+
 KinematicsResult analyse_kinematics(const CommandLine& line, const KinematicsOptions& declared,
                                     const Model& closed) {
   KinematicsResult result;

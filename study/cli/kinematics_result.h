@@ -28,6 +28,11 @@ struct KinematicsResult {
   std::vector<LoopResult> loops;
 };
 
+// More drives than freedoms whose courses do not agree with the closures.
+bool contradicts(const KinematicsResult& result);
+// The course ended where angles of a joint are singular, which says nothing of the linkage.
+bool ends_at_singular_angles(const KinematicsResult& result);
+
 KinematicsResult analyse_kinematics(const CommandLine& line, const KinematicsOptions& declared,
                                     const Model& closed);
 

@@ -1,4 +1,5 @@
 // linkstudy kinematics: reports, tables and objects of the models in configs/.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -17,6 +18,7 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 class Kinematics : public Program {
  protected:
@@ -233,6 +235,62 @@ TEST_F(Kinematics, Tells_the_branches_of_a_four_bar_apart) {
       "four_bar", "-s 'joint.B.initial.position=[-2.5]' -s 'joint.D.initial.position=[-2.0]'");
   const json open = object("four_bar");
   EXPECT_EQ(open["branch"].get<int>() * crossed["branch"].get<int>(), -1);
+}
+
+TEST_F(Kinematics, Fails_where_two_drives_of_one_freedom_contradict_each_other) {
+  const std::string options = "--drive joint.A=1:1.3 --drive joint.D=1.7892514033875249:2.5";
+  const Ended ended = analyse("four_bar", options);
+  EXPECT_EQ(ended.code, 3);
+  EXPECT_THAT(ended.out, HasSubstr("joint.A, joint.D contradict each other"));
+  EXPECT_EQ(object("four_bar", options)["contradiction"], true);
+  EXPECT_EQ(object("four_bar")["contradiction"], false);
+}
+
+// Opposite cranks of a parallelogram turn alike: two drives of one freedom that fit.
+TEST_F(Kinematics, Takes_more_drives_than_freedoms_that_fit_each_other) {
+  const Ended ended = analyse("n_four_bar", "--drive joint.A0=2:2.5 --drive joint.A1=2:2.5");
+  EXPECT_EQ(ended.code, 0) << ended.out << ended.err;
+  EXPECT_THAT(ended.out, AllOf(HasSubstr("their courses fit each other"),
+                               HasSubstr("73 of 73 positions"), Not(HasSubstr("contradict"))));
+}
+
+// A link turned by half a turn against what its closure describes: a weld is another weld, which no
+// verb takes; an axis is the same joint, which all of them say.
+TEST_F(Kinematics, And_all_verbs_tell_ends_turned_by_half_a_turn) {
+  for (const char* type : {"fixed", "prismatic", "revolute", "cylindrical"}) {
+    write("turned.toml", fmt::format(R"(format = 1
+kind = "model"
+[[link]]
+name = "a"
+mass = 1.0
+center_of_mass = [0.1, 0.0, 0.0]
+inertia = [0.001, 0.01, 0.01]
+[[joint]]
+name = "A"
+type = "revolute"
+parent = "ground"
+child = "a"
+initial = {{ position = [3.141592653589793], hold = true }}
+[[closure]]
+name = "W"
+type = "{}"
+first = {{ link = "a" }}
+second = {{ link = "ground" }}
+[simulation]
+end_time = 0.01
+step = 1.0e-3
+)",
+                                     type));
+    const bool is_weld = *type == 'f' || *type == 'p';
+    for (const char* verb : {"kinematics", "simulate", "statics"}) {
+      const Ended ended = run(std::string(verb) + " turned.toml");
+      EXPECT_EQ(ended.code, is_weld ? 3 : 0) << verb << " " << type;
+      EXPECT_THAT(ended.out + ended.err,
+                  HasSubstr(is_weld ? "turned against each other by half a turn"
+                                    : "closure 'W': the axes of its two ends point against"))
+          << verb << " " << type;
+    }
+  }
 }
 
 TEST_F(Kinematics, Drives_the_joints_of_the_model_file) {

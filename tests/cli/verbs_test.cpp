@@ -294,5 +294,43 @@ TEST_F(Verbs, A_tune_without_a_window_exits_with_4_and_says_why) {
   EXPECT_THAT(ended.out, HasSubstr("window      empty"));
 }
 
+// A pendulum on a ball that swings past theta = 90 deg, just beside it: its angles fail there,
+// which the end says; the same with a quaternion is no event.
+TEST_F(Verbs, A_run_past_the_singular_angles_of_a_ball_names_them) {
+  const auto model = [](const std::string& ball) {
+    return R"(format = 1
+kind = "model"
+gravity = [0.0, 0.0, -9.81]
+[[link]]
+name = "b"
+mass = 1.0
+center_of_mass = [0.3, 0.0, 0.0]
+inertia = [0.01, 0.02, 0.03]
+[[joint]]
+name = "S"
+type = "spherical"
+parent = "ground"
+child = "b"
+)" + ball + R"(
+[simulation]
+end_time = 1.0
+step = 1.0e-3
+start = "given"
+)";
+  };
+  write("angles.toml", model("initial = { position = [0, 0.3, 0], velocity = [1e-3, 0.5, 0] }"));
+  write("quaternion.toml",
+        model("coordinates = \"quaternion\"\n"
+              "initial = { position = [0.9887710779360422, 0, 0.1494381324735992, 0], "
+              "velocity = [-2.955e-4, 0.5, 9.553e-4] }"));
+  const Ended lost = run("simulate angles.toml");
+  EXPECT_EQ(lost.code, 3);
+  EXPECT_THAT(lost.out + lost.err, HasSubstr("the angles of a joint are singular at 90 deg"));
+  EXPECT_THAT(lost.out + lost.err, HasSubstr("coordinates = \"quaternion\""));
+  EXPECT_EQ(run("simulate quaternion.toml").code, 0);
+  EXPECT_THAT(run("simulate angles.toml -s simulation.end_time=0.1").out,
+              Not(HasSubstr("singular")));
+}
+
 }  // namespace
 }  // namespace linkstudy::testing

@@ -16,6 +16,7 @@
 #include "tests/support/engine_probe.h"
 #include "tests/support/near.h"
 #include "tests/support/trace_formulas.h"
+#include "tests/support/zyx_equivalent.h"
 
 namespace linkstudy::testing {
 namespace {
@@ -244,6 +245,63 @@ TEST(Assembly, Axes_that_can_only_be_opposite_are_taken_so_with_a_warning) {
   });
   EXPECT_EQ(named, 1);
   EXPECT_LE(openness(linkage, p.model.start).position, kClosedTolerance);
+}
+
+// All rows of a closure vanish for half turns too; which of these is the same joint still depends
+// on what it holds.
+TEST(Assembly, Half_a_turn_is_refused_where_a_closure_holds_the_whole_orientation) {
+  using Eigen::Vector3d;
+  const std::vector<std::string> named = {"C"}, none;
+  for (const Vector3d& axis : {Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()}) {
+    const bool turns_axis = axis != Vector3d::UnitX();  // a closure's axis is x
+    for (const JointType type : {JointType::fixed, JointType::prismatic}) {
+      const Linkage linkage = turned_body(type, M_PI, axis);
+      const Assembled a = assembled(linkage);
+      EXPECT_LT(a.report.residual, kClosedTolerance);
+      EXPECT_FALSE(a.report.closed);
+      EXPECT_EQ(a.report.turned, named);
+      const Preparation p = prepare(linkage, steps_of(1e-3, 1.0));
+      EXPECT_EQ(p.cause, Cause::assembly_failed);
+      EXPECT_NE(p.message.find("closure.C: its ends are turned"), std::string::npos) << p.message;
+    }
+    for (const JointType type : {JointType::revolute, JointType::cylindrical}) {
+      const Assembled a = assembled(turned_body(type, M_PI, axis));
+      EXPECT_TRUE(a.report.closed);
+      EXPECT_EQ(a.report.turned, none);
+      EXPECT_EQ(a.report.flipped, turns_axis ? named : none);
+      EXPECT_EQ(flipped_texts(a.report).size(), a.report.flipped.size());
+    }
+    for (const JointType type : {JointType::universal, JointType::spherical}) {
+      const Assembled a = assembled(turned_body(type, M_PI, axis));
+      EXPECT_EQ(a.report.turned, none);
+      EXPECT_EQ(a.report.flipped, none);
+    }
+  }
+}
+
+TEST(Assembly, Tells_the_same_branch_by_angles_and_by_quaternions) {
+  int told = 0;
+  for (const Linkage& exact : many_mechanisms()) {
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+      Linkage linkage = exact;
+      shake(linkage, seed, 0.3, 0.0);
+      const Assembled by_angles = assembled(with_zyx(linkage));
+      if (!by_angles.report.closed) continue;
+      Linkage there = with_zyx(linkage);
+      const auto& joints = by_angles.closed.mechanism.joint_names;
+      for (Joint& joint : there.joints) {
+        const auto body = std::find(joints.begin(), joints.end(), joint.name) - joints.begin();
+        const Body& b = by_angles.closed.mechanism.bodies[static_cast<std::size_t>(body)];
+        const auto q = by_angles.start.q.begin() + b.q_begin;
+        joint.position.assign(q, q + b.q_count);
+      }
+      const Assembled by_quaternions = assembled(with_quaternions(there));
+      ASSERT_TRUE(by_quaternions.report.closed);
+      EXPECT_EQ(by_angles.report.branch, by_quaternions.report.branch) << linkage.name << seed;
+      told += by_angles.report.branch != 0;
+    }
+  }
+  EXPECT_GT(told, 40);
 }
 
 TEST(Assembly, A_closure_out_of_reach_fails_by_its_name) {

@@ -189,6 +189,25 @@ TEST(Mobility, Finds_the_idle_spin_of_a_coupler_between_two_balls) {
   EXPECT_EQ(r.idle[0].count, 1);
 }
 
+// S-P-S: each leg of two links spins about the line through its balls, one of them on ground.
+TEST(Mobility, Finds_the_idle_spins_of_legs_between_ground_and_platform) {
+  Linkage linkage = stewart_platform();
+  for (Joint& joint : linkage.joints) {
+    if (joint.type != JointType::universal) continue;
+    joint.type = JointType::spherical;
+    joint.position.resize(3, 0.0);
+    joint.velocity.resize(3, 0.0);
+  }
+  const MobilityReport r = mobility_at_start(linkage);
+  EXPECT_EQ(r.mobility, 12);
+  ASSERT_EQ(r.idle.size(), 6u);
+  for (const IdleFreedom& idle : r.idle) {
+    EXPECT_EQ(idle.count, 1);
+    EXPECT_EQ(idle.links.size(), 2u);
+    EXPECT_EQ(idle.joints.size(), 2u);
+  }
+}
+
 TEST(Mobility, Calls_nothing_idle_that_a_linkage_needs) {
   for (const Linkage& linkage : {four_bar(), rsrrp(), rccc(), stewart_platform(), sarrus()}) {
     EXPECT_THAT(mobility_at_start(linkage).idle, IsEmpty()) << linkage.name;
