@@ -100,6 +100,34 @@ void add_joint_friction_rows(Rows& rows) {
   add("preload", "normal load besides the reaction", "N");
 }
 
+void add_start_rows(Rows& rows) {
+  rows.push_back({.path = "joint.*.initial",
+                  .type = table,
+                  .meaning = "start of the joint",
+                  .standard = "{}"});
+  rows.push_back({.path = "joint.*.initial.position",
+                  .type = numbers,
+                  .meaning = "start coordinates, possibly approximate, in the order of the type: "
+                             "revolute, screw: angle about z; prismatic: shift along z; "
+                             "cylindrical: angle about z, shift along z; universal: angle about z, "
+                             "angle about the new y; planar: shift along x, shift along y, angle "
+                             "about z; spherical: psi about z, theta about the new y, phi about "
+                             "the new x, or the quaternion w x y z; free: shifts along x, y, z, "
+                             "then as spherical; default: all zero",
+                  .unit = "rad|m|1"});
+  rows.push_back({.path = "joint.*.initial.velocity",
+                  .type = numbers,
+                  .meaning = "start velocities, the rates of the coordinates; of a quaternion the "
+                             "angular velocity in the axes of the child's joint frame (body "
+                             "frame), three numbers; default: all zero",
+                  .unit = "rad/s|m/s"});
+  rows.push_back({.path = "joint.*.initial.hold",
+                  .type = boolean,
+                  .meaning = "assembly keeps position and velocity of this joint, statics its "
+                             "position (and reports what that takes); a run lets it go",
+                  .standard = "false"});
+}
+
 void add_joint_rows(Rows& rows) {
   rows.push_back({.path = "joint",
                   .type = tables,
@@ -143,31 +171,7 @@ void add_joint_rows(Rows& rows) {
                   .unit = "m/rev",
                   .required = true,
                   .only = {"type", {"screw"}}});
-  rows.push_back({.path = "joint.*.initial",
-                  .type = table,
-                  .meaning = "start of the joint",
-                  .standard = "{}"});
-  rows.push_back({.path = "joint.*.initial.position",
-                  .type = numbers,
-                  .meaning = "start coordinates, possibly approximate, in the order of the type: "
-                             "revolute, screw: angle about z; prismatic: shift along z; "
-                             "cylindrical: angle about z, shift along z; universal: angle about z, "
-                             "angle about the new y; planar: shift along x, shift along y, angle "
-                             "about z; spherical: psi about z, theta about the new y, phi about "
-                             "the new x, or the quaternion w x y z; free: shifts along x, y, z, "
-                             "then as spherical; default: all zero",
-                  .unit = "rad|m|1"});
-  rows.push_back({.path = "joint.*.initial.velocity",
-                  .type = numbers,
-                  .meaning = "start velocities, the rates of the coordinates; of a quaternion the "
-                             "angular velocity in the axes of the child's joint frame (body "
-                             "frame), three numbers; default: all zero",
-                  .unit = "rad/s|m/s"});
-  rows.push_back({.path = "joint.*.initial.hold",
-                  .type = boolean,
-                  .meaning = "assembly keeps position and velocity of this joint, statics its "
-                             "position (and reports what that takes); a run lets it go",
-                  .standard = "false"});
+  add_start_rows(rows);
   add_spring_rows(rows);
   add_joint_friction_rows(rows);
 }
