@@ -61,7 +61,7 @@ class StudySession {
   std::uint64_t total_;  // 0 where not known beforehand
   std::uint64_t failures_ = 0;
   bool abandoned_ = false;
-  bool has_cancelled_ = false;  // of the present packs
+  bool has_cancelled_ = false;              // of the present packs
   std::vector<std::size_t> points_before_;  // of the packs in hand: in those before each, and all
   std::size_t packs_taken_ = 0;
   std::size_t points_taken_ = 0;

@@ -87,9 +87,9 @@ ReferenceRecord run_reference(const StudyInput& input, const LoadCaseInput& load
   ReferenceRecord record;
   record.grid = make_step_grid(model.options);
   Observers observers = make_observers(signals, all, record.grid, model.options.output_interval);
-  const SimulationOutcome outcome = simulate(
-      mechanism, preparation.model.parameters, preparation.model.start, model.options, observers,
-      limits, worse({}, preparation.spectrum, preparation.model.start.t));
+  const SimulationOutcome outcome =
+      simulate(mechanism, preparation.model.parameters, preparation.model.start, model.options,
+               observers, limits, worse({}, preparation.spectrum, preparation.model.start.t));
   if (outcome.cause != Cause::ok) fail(load_case, outcome.cause, outcome.message);
   record.joints = mechanism.joint_names;
   record.poses = to_states(observers.series.back(), mechanism);
