@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "study/cli/output.h"
 #include "study/cli/tuning_setup.h"
 #include "study/config/precedence.h"
 #include "study/config/unit.h"
