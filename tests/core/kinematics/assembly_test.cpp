@@ -252,7 +252,7 @@ TEST(Assembly, Axes_that_can_only_be_opposite_are_taken_so_with_a_warning) {
 TEST(Assembly, Half_a_turn_is_refused_where_a_closure_holds_the_whole_orientation) {
   using Eigen::Vector3d;
   const std::vector<std::string> named = {"C"}, none;
-  for (const Vector3d& axis : {Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()}) {
+  for (const Vector3d axis : {Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()}) {
     const bool turns_axis = axis != Vector3d::UnitX();  // a closure's axis is x
     for (const JointType type : {JointType::fixed, JointType::prismatic}) {
       const Linkage linkage = turned_body(type, M_PI, axis);
