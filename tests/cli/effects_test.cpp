@@ -87,7 +87,7 @@ TEST_F(Effects, A_tune_that_cannot_succeed_is_refused_by_check_at_its_keys) {
 TEST_F(Effects, A_proposed_velocity_that_cannot_be_is_remarked) {
   const Ended ended = run("simulate model.toml -s joint.A.initial.velocity.0=1");
   EXPECT_THAT(run("simulate model.toml").err, Not(HasSubstr("initial.velocity")));
-  EXPECT_THAT(ended.err, HasSubstr("initial.velocity 1 does not fit the closures"));
+  EXPECT_THAT(ended.err, HasSubstr("initial velocity is 0.9494 instead of the given 1"));
 }
 
 }  // namespace

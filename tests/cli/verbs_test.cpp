@@ -315,6 +315,7 @@ child = "b"
 [simulation]
 end_time = 1.0
 step = 1.0e-3
+output_interval = 1.0e-3
 start = "given"
 )";
   };

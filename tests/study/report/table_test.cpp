@@ -200,7 +200,7 @@ TEST(ResultsTable, Starts_and_resumes_have_their_rows) {
   StudyResults results = some_results();
   results.provenance = {{"start", 1.7e9, 2, 3, "n1", "0.1.0", "abc", "linkstudy study", "avx2", 4}};
   EXPECT_THAT(csv_of(provenance_table(results)),
-              HasSubstr("start,1700000000,2,3,n1,0.1.0,abc,avx2,4,linkstudy study"));
+              HasSubstr("start,1700000000,2,3,n1,0.1.0,abc,avx2,4,,0,linkstudy study"));
 }
 
 }  // namespace
