@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 
 #include "core/topology/nearest_name.h"
 #include "study/config/joint_units.h"
@@ -15,13 +14,6 @@ namespace linkstudy {
 namespace {
 
 using Kind = Tree::Kind;
-
-std::optional<std::size_t> parse_index(const std::string& text) {
-  std::size_t index = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return index;
-}
 
 Tree* find_element(Tree& list, const std::string& name) {
   const std::optional<std::size_t> index = find_element_index(list, name);

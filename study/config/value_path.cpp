@@ -8,13 +8,6 @@ namespace {
 
 using Kind = Tree::Kind;
 
-std::optional<std::size_t> parse_index(const std::string& text) {
-  std::size_t index = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return index;
-}
-
 // Follows the key tables and the document side by side.
 class Finder {
  public:
@@ -79,6 +72,13 @@ bool are_exclusive(const KeyNode* a, const KeyNode* b) {
 }
 
 }  // namespace
+
+std::optional<std::size_t> parse_index(const std::string& text) {
+  std::size_t index = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return index;
+}
 
 std::optional<std::size_t> find_element_index(const Tree& list, const std::string& name) {
   for (std::size_t i = 0; i < list.items.size(); ++i) {

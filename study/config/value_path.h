@@ -33,4 +33,7 @@ PathRelation relation_of(const ValuePath& first, const ValuePath& second);
 PathRelation relation_of(const Tree& document, const KeyNode& schema, const std::string& first,
                          const std::string& second);
 
+// A position in a list, written as a part of a path; nothing where it is none.
+std::optional<std::size_t> parse_index(const std::string& text);
+
 }  // namespace linkstudy
