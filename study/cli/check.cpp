@@ -2,25 +2,13 @@
 
 #include <nlohmann/json.hpp>
 
-#include "study/cli/exit_code.h"
-#include "study/cli/input.h"
-#include "study/cli/output.h"
-#include "study/cli/verbs.h"
-#include "study/config/check_file.h"
-#include "study/config/toml_reader.h"
+#include "study/cli/verb_table.h"
+#include "study/report/console.h"
+#include "study/session/check_input.h"
+#include "study/session/exit_code.h"
 
 namespace linkstudy {
 namespace {
-
-// What check_file does not judge because it needs the compiled model: names of signals, windows.
-void check_signals_of(const std::string& path, Diagnostics& diagnostics) {
-  Diagnostics said_before;
-  const std::optional<Tree> tree = read_toml_file(path, said_before);
-  const std::optional<std::string> kind = tree ? kind_of(*tree, said_before) : std::nullopt;
-  if (!kind || *kind == "model") return;
-  const std::optional<StudyInput> input = read_study(path, {}, said_before);
-  if (input) make_evaluator(*input, diagnostics);
-}
 
 using Json = nlohmann::ordered_json;
 
@@ -43,8 +31,7 @@ int run_check(const CommandLine& line) {
   std::vector<Diagnostic> remarks;
   for (const std::string& file : line.inputs) {
     Diagnostics found;
-    check_file(file, found);
-    if (found.empty()) check_signals_of(file, found);
+    check_input(file, found);
     if (!line.json && found.empty()) print_out(fmt::format("{}: ok\n", file));
     for (const Diagnostic& d : found.sorted()) errors.push_back(d);
     for (const Diagnostic& d : found.sorted_remarks()) remarks.push_back(d);

@@ -1,54 +1,54 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/model/compile.h"
-#include "study/cli/describe_channels.h"
-#include "study/cli/exit_code.h"
 #include "study/cli/input.h"
-#include "study/cli/output.h"
-#include "study/cli/verbs.h"
+#include "study/cli/manual.h"
+#include "study/cli/verb_table.h"
 #include "study/config/key_reference.h"
 #include "study/config/unit_symbols.h"
+#include "study/report/channels_text.h"
+#include "study/report/console.h"
+#include "study/session/exit_code.h"
 
 namespace linkstudy {
 namespace {
 
-int print_channels(const CommandLine& line) {
-  if (line.inputs.size() == 1) {
-    print_out(channel_patterns_text());
-    return kDone;
+std::string channels_of(CommandLine line) {
+  if (line.inputs.size() == 1) return channel_patterns_text();
+  line.inputs.erase(line.inputs.begin());
+  return channels_text(compile(read_model_input(line).linkage).mechanism);
+}
+
+// What is written whole.
+std::optional<std::string> document_of(const CommandLine& line) {
+  if (line.markdown) return key_reference_markdown();
+  if (line.man) return manual_page(std::stoi(*line.man));
+  if (line.completion) return bash_completion();
+  return std::nullopt;
+}
+
+std::string text_of(const CommandLine& line, const std::string& path) {
+  if (const std::optional<std::string> document = document_of(line)) {
+    if (path.empty()) return *document;
+    throw UsageError("--markdown, --man and --completion print the whole; leave PATH out");
   }
-  CommandLine of_model = line;
-  of_model.inputs.erase(of_model.inputs.begin());
-  print_out(channels_text(compile(read_model_input(of_model).linkage).mechanism));
-  return kDone;
+  if (path == "channels") return channels_of(line);
+  if (line.inputs.size() > 1) {
+    throw UsageError(fmt::format("describe takes one PATH, or channels and a MODEL, got '{}'",
+                                 fmt::join(line.inputs, " ")));
+  }
+  if (path == "units") return describe_units();
+  if (const std::optional<std::string> keys = describe(path)) return *keys;
+  throw UsageError(
+      fmt::format("there is no key under '{}'; nearest: {}; also: channels [MODEL], units", path,
+                  fmt::join(nearest_keys(path), ", ")));
 }
 
 }  // namespace
 
 int run_describe(const CommandLine& line) {
-  const std::string path = line.inputs.empty() ? "" : line.inputs.front();
-  if (path == "channels" && !line.markdown) return print_channels(line);
-  if (line.inputs.size() > 1) {
-    throw UsageError(fmt::format("describe takes one PATH, or channels and a MODEL, got '{}'",
-                                 fmt::join(line.inputs, " ")));
-  }
-  if (path == "units" && !line.markdown) {
-    print_out(describe_units());
-    return kDone;
-  }
-  if (line.markdown) {
-    if (!path.empty()) throw UsageError("--markdown prints the whole reference; leave PATH out");
-    print_out(key_reference_markdown());
-    return kDone;
-  }
-  const std::optional<std::string> text = describe(path);
-  if (!text) {
-    throw UsageError(
-        fmt::format("there is no key under '{}'; nearest: {}; also: channels "
-                    "[MODEL], units",
-                    path, fmt::join(nearest_keys(path), ", ")));
-  }
-  print_out(*text);
+  print_out(text_of(line, line.inputs.empty() ? "" : line.inputs.front()));
   return kDone;
 }
 

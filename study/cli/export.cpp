@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "study/cli/exit_code.h"
-#include "study/cli/output.h"
-#include "study/cli/verbs.h"
+#include "study/cli/verb_table.h"
+#include "study/report/console.h"
 #include "study/report/results_table.h"
+#include "study/session/exit_code.h"
 #include "study/store/file.h"
 #include "study/store/results_file.h"
 #include "study/store/store_error.h"

@@ -2,19 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
-#include "study/cli/output.h"
-#include "study/cli/tuning_setup.h"
-#include "study/config/precedence.h"
+#include "study/config/input_error.h"
 #include "study/config/unit.h"
-#include "study/design/design.h"
+#include "study/report/console.h"
 
 namespace linkstudy {
 namespace {
-
-constexpr const char* kStepPath = "simulation.step";
 
 std::vector<Override> parse_sets(const std::vector<std::string>& texts, Diagnostics& diagnostics) {
   std::vector<Override> set;
@@ -46,33 +41,7 @@ void apply_run_options(const CommandLine& line, RunOptions& run) {
   }
 }
 
-std::vector<Axis> axes_of(const StudyInput& input) {
-  std::vector<Axis> axes;
-  for (const VaryInput& vary : input.vary) axes.push_back({vary.parameter, vary.values});
-  return axes;
-}
-
-Design design_of(const StudyInput& input) {
-  return input.design == DesignType::list ? Design::list : Design::grid;
-}
-
-std::vector<Value> first_point(const StudyInput& input) {
-  if (input.kind == StudyKind::tune) return {input.tune.front().low, base_step_of(input)};
-  return make_point(design_of(input), axes_of(input), 0).values;
-}
-
 }  // namespace
-
-InputError::InputError(Diagnostics diagnostics)
-    : std::runtime_error(to_string(diagnostics)), diagnostics_(std::move(diagnostics)) {}
-
-void throw_if_any(const Diagnostics& diagnostics) {
-  if (!diagnostics.empty()) throw InputError(diagnostics);
-}
-
-void print_remarks(const std::vector<Diagnostic>& remarks) {
-  for (const Diagnostic& remark : remarks) print_err(to_string(remark) + "\n");
-}
 
 ModelInput read_model_input(const CommandLine& line) {
   Diagnostics diagnostics;
@@ -101,40 +70,6 @@ StudyInput read_study_input(const CommandLine& line, StudyKind kind) {
   }
   apply_run_options(line, input->run);
   return std::move(*input);
-}
-
-std::vector<Parameter> parameters_of(const StudyInput& input) {
-  std::vector<Parameter> parameters;
-  for (const VaryInput& vary : input.vary) parameters.push_back(vary.parameter);
-  if (input.kind == StudyKind::tune) {
-    parameters.push_back(input.tune.front().parameter);
-    parameters.push_back(parameter_for(*input.model, kStepPath)
-                             .value_or(Parameter{kStepPath, "s", "length of a step"}));
-  }
-  return parameters;
-}
-
-std::vector<Point> points_of(const StudyInput& input) {
-  return make_points(design_of(input), axes_of(input));
-}
-
-double base_step_of(const StudyInput& input) {
-  const Override low = make_override(input.tune.front().parameter.path, input.tune.front().low);
-  Diagnostics diagnostics;
-  const std::optional<ModelInput> model =
-      input.model->with(case_overrides(input, {}, {low}), diagnostics);
-  throw_if_any(diagnostics);
-  return model->options.step;
-}
-
-std::unique_ptr<Evaluator> make_evaluator(const StudyInput& input, Diagnostics& diagnostics) {
-  if (input.kind == StudyKind::tune) check_tune(input, diagnostics);
-  if (!diagnostics.empty()) return nullptr;
-  std::unique_ptr<Evaluator> evaluator =
-      Evaluator::make(input, parameters_of(input), first_point(input), diagnostics);
-  if (evaluator && input.kind == StudyKind::tune) check_tuning(*evaluator, diagnostics);
-  if (evaluator) evaluator->set_timeout(input.run.timeout.value_or(0.0));
-  return evaluator;
 }
 
 }  // namespace linkstudy

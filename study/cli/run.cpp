@@ -2,35 +2,23 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
+#include <algorithm>
 #include <exception>
-#include <stdexcept>
 
-#include "study/cli/exit_code.h"
-#include "study/cli/output.h"
-#include "study/cli/report_error.h"
-#include "study/cli/verbs.h"
-#include "study/cli/version.h"
+#include "study/cli/verb_table.h"
+#include "study/report/console.h"
 #include "study/schedule/launcher.h"
+#include "study/session/exit_code.h"
+#include "study/session/failure.h"
+#include "study/session/version_text.h"
 
 namespace linkstudy {
 namespace {
 
-struct VerbEntry {
-  const char* name;
-  int (*run)(const CommandLine&);
-};
-
-constexpr VerbEntry kVerbs[] = {{"init", run_init},         {"check", run_check},
-                                {"describe", run_describe}, {"simulate", run_simulate},
-                                {"statics", run_statics},   {"kinematics", run_kinematics},
-                                {"study", run_study},       {"tune", run_tune},
-                                {"status", run_status},     {"export", run_export}};
-
 // Copies of a verb that works in one process: the first says so, and its exit code becomes that of
 // the launcher. The others leave without one, or the launcher might end the first before it speaks.
 bool leaves_to_first(const CommandLine& line) {
-  if (is_resumable({line.verb})) return false;
+  if (find_verb(line.verb).is_resumable) return false;
   const Launcher launcher = find_launcher(read_environment);
   if (launcher.size > 1 && launcher.rank > 0) return true;
   check_alone(launcher, line.verb);
@@ -44,16 +32,15 @@ int run_verb(const std::vector<std::string>& arguments) {
     return kDone;
   }
   if (leaves_to_first(line)) return kDone;
-  for (const VerbEntry& verb : kVerbs) {
-    if (line.verb == verb.name) return verb.run(line);
-  }
-  throw std::logic_error("a verb without a function: " + line.verb);
+  return find_verb(line.verb).run(line);
 }
 
 }  // namespace
 
 bool is_resumable(const std::vector<std::string>& arguments) {
-  return !arguments.empty() && (arguments.front() == "study" || arguments.front() == "tune");
+  return !arguments.empty() && std::ranges::any_of(verb_rows(), [&](const VerbRow& verb) {
+    return verb.is_resumable && arguments.front() == verb.name;
+  });
 }
 
 int run_program(const std::vector<std::string>& arguments) {

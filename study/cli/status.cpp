@@ -1,66 +1,16 @@
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
-#include "study/cli/exit_code.h"
-#include "study/cli/output.h"
-#include "study/cli/verbs.h"
-#include "study/schedule/progress.h"
-#include "study/store/status.h"
+#include "study/cli/verb_table.h"
+#include "study/report/console.h"
+#include "study/report/status_report.h"
+#include "study/session/exit_code.h"
 
 namespace linkstudy {
-namespace {
-
-// One word, for scripts.
-const char* state_of(const StudyStatus& status) {
-  if (status.running) return "running";
-  return status.is_complete ? "complete" : "interrupted";
-}
-
-std::string to_json(const StudyStatus& status) {
-  nlohmann::ordered_json failed = nlohmann::ordered_json::object();
-  for (const auto& [cause, count] : status.failed) failed[std::string(name_of(cause))] = count;
-  nlohmann::ordered_json json = {{"state", state_of(status)},
-                                 {"total", status.total},
-                                 {"done", status.done},
-                                 {"finished", status.done + status.failed_count()},
-                                 {"failed", failed},
-                                 {"references", status.references},
-                                 {"running", status.running},
-                                 {"eta_s", nullptr},
-                                 {"last_write_age_s", status.last_write_age_s},
-                                 {"digest", status.digest}};
-  if (status.eta_s) json["eta_s"] = *status.eta_s;
-  return json.dump() + "\n";
-}
-
-std::string state_text(const StudyStatus& status) {
-  if (status.running) return "running";
-  return status.is_complete ? "complete" : "not running, resumable";
-}
-
-std::string to_text(const StudyStatus& status) {
-  std::string text = summary_line("state", state_text(status));
-  const bool is_budget = status.is_tune && !status.is_complete;
-  const std::uint64_t failed = status.failed_count();
-  text += summary_line("finished", fmt::format("{} of {}{}", status.done + failed,
-                                               is_budget ? "at most " : "", status.total));
-  text += summary_line("ok", fmt::format("{}", status.done));
-  for (const auto& [cause, count] : status.failed) {
-    text += summary_line("failed", fmt::format("{} {}", count, name_of(cause)));
-  }
-  if (status.eta_s && status.running) {
-    text += summary_line("time left", (is_budget ? "at most " : "") + duration_text(*status.eta_s));
-  }
-  return text + summary_line("last write", duration_text(status.last_write_age_s) + " ago");
-}
-
-}  // namespace
 
 int run_status(const CommandLine& line) {
   const StudyStatus status = read_status(line.inputs.front());
   if (!status.dropped.empty()) print_err(fmt::format("linkstudy: warning: {}\n", status.dropped));
-  print_out(line.json ? to_json(status) : to_text(status));
+  print_out(line.json ? status_json(status) : status_text(status));
   return kDone;
 }
 

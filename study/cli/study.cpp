@@ -1,28 +1,16 @@
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
-#include "study/cli/exit_code.h"
-#include "study/cli/output.h"
-#include "study/cli/study_end.h"
-#include "study/cli/verbs.h"
+#include "study/cli/input.h"
+#include "study/cli/verb_table.h"
+#include "study/report/console.h"
 #include "study/report/results_table.h"
+#include "study/session/end.h"
+#include "study/session/exit_code.h"
+#include "study/session/launch.h"
+#include "study/session/study_points.h"
 
 namespace linkstudy {
 namespace {
-
-std::string to_json(const StudyEnd& end, const StudyRecord& record) {
-  nlohmann::ordered_json failed = nlohmann::ordered_json::object();
-  for (const auto& [cause, count] : record.failures()) failed[std::string(name_of(cause))] = count;
-  const nlohmann::ordered_json json = {
-      {"status", end.status},
-      {"evaluations", record.evaluations().size()},
-      {"done", record.evaluations().size() - record.failure_count()},
-      {"failed", failed},
-      {"digest", end.digest},
-      {"results", record.results_path().string()}};
-  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
-}
 
 // What a reader wants to see first; export has everything.
 ResultsTableOptions choose_columns(const StudySession& session) {
@@ -37,7 +25,7 @@ ResultsTableOptions choose_columns(const StudySession& session) {
   return options;
 }
 
-int finish(StudySession& session, StudyEnd end) {
+int finish(bool json, StudySession& session, StudyEnd end) {
   StudyRecord& record = session.record();
   // A study of which nothing came out is no success, however many failures are accepted.
   if (end.code == kDone && !record.evaluations().empty() &&
@@ -48,7 +36,7 @@ int finish(StudySession& session, StudyEnd end) {
     print_err(fmt::format("linkstudy: error: every evaluation failed; evaluation {}: {}{}{}\n", id,
                           name_of(first.status), first.message.empty() ? "" : ": ", first.message));
   }
-  if (session.line().json) {
+  if (json) {
     print_out(to_json(end, record));
     return end.code;
   }
@@ -62,10 +50,12 @@ int finish(StudySession& session, StudyEnd end) {
 }  // namespace
 
 int run_study(const CommandLine& line) {
-  return run_session(line, StudyKind::study, [](StudySession& session) {
-    const std::vector<Point> points = points_of(session.evaluator().input());
-    return finish(session, end_study(session, [&] { session.evaluate(points); }));
-  });
+  return run_session(
+      line, [&] { return read_study_input(line, StudyKind::study); },
+      [&](StudySession& session) {
+        const std::vector<Point> points = points_of(session.evaluator().input());
+        return finish(line.json, session, end_study(session, [&] { session.evaluate(points); }));
+      });
 }
 
 }  // namespace linkstudy

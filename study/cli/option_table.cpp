@@ -1,0 +1,204 @@
+#include "study/cli/option_table.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/topology/nearest_name.h"
+#include "study/report/table.h"
+#include "study/schedule/progress.h"
+
+namespace linkstudy {
+namespace {
+
+namespace po = boost::program_options;
+
+// What fills one member of the command line.
+template <class Record>
+auto fill_switch(bool Record::*member) {
+  return [member](CommandLine& line, const char*) { return po::bool_switch(&(line.*member)); };
+}
+
+template <class Record, class Type>
+auto fill(Type Record::*member) {
+  return [member](CommandLine& line, const char* value) {
+    return po::value(&(line.*member))->value_name(value);
+  };
+}
+
+template <class Record, class Type>
+auto fill(std::optional<Type> Record::*member) {
+  return [member](CommandLine& line, const char* value) {
+    return po::value<Type>()->value_name(value)->notifier(
+        [&line, member](const Type& given) { line.*member = given; });
+  };
+}
+
+template <class Record>
+auto fill(std::vector<std::string> Record::*member) {
+  return [member](CommandLine& line, const char* value) {
+    return po::value(&(line.*member))->composing()->value_name(value);
+  };
+}
+
+using Rows = std::vector<OptionRow>;
+
+// Of what goes in and out.
+Rows file_options() {
+  using Line = CommandLine;
+  return {
+      {"output,o", "FILE", "write to this file", fill(&Line::output), {"export", "init"}},
+      {"output,o", "DIR", "results directory", fill(&Line::output)},
+      {"set,s", "PATH=VALUE", "set a value of the input; repeatable; * for a name: everywhere",
+       fill(&Line::set)},
+      {"json", "", "one JSON object on standard output", fill_switch(&Line::json)},
+      {"markdown", "", "the text of configs/README.md", fill_switch(&Line::markdown)},
+      {"man",
+       "N",
+       "the manual page: 1 of the program, 5 of the input files",
+       fill(&Line::man),
+       {},
+       {"1", "5"}},
+      {"completion", "", "completion of the command line for bash", fill_switch(&Line::completion)},
+      {"slurm", "", "write a batch script beside FILE as well", fill_switch(&Line::slurm)},
+      {"csv",
+       "FILE",
+       "write the positions; - is standard output",
+       fill(&Line::csv),
+       {"kinematics"}},
+      {"csv", "FILE", "write time histories; - is standard output", fill(&Line::csv)},
+      {"h5", "FILE", "write everything as HDF5: positions, poses, singular positions, loops",
+       fill(&Line::h5)},
+      {"signals", "A,B",
+       "channels of --csv, or groups: closure.S.force, joint.A, energy; default: all; linkstudy "
+       "describe channels MODEL",
+       fill(&Line::signals)},
+      {"traces", "", "time histories, and their differences from the reference",
+       fill_switch(&Line::traces)},
+      {"format",
+       "FORM",
+       "text, csv, md, json or latex",
+       fill(&Line::format),
+       {},
+       {"text", "csv", "md", "json", "latex"}},
+  };
+}
+
+// Of how a study or tune is run.
+Rows run_options() {
+  using Line = CommandLine;
+  return {
+      {"seed", "N", "seed of random numbers", fill(&Line::seed)},
+      {"batch", "N", "points asked for together; changes the path of the search",
+       fill(&Line::batch)},
+      {"on-failure",
+       "WHAT",
+       "record: note a failed evaluation and go on; abort: stop",
+       fill(&Line::on_failure),
+       {},
+       {"record", "abort"}},
+      {"max-failures", "N|P%", "failed evaluations accepted, a count or a share of all",
+       fill(&Line::max_failures)},
+      {"timeout", "S", "longest time of one run in seconds", fill(&Line::timeout_s)},
+      {"walltime", "S", "end in time, resumable, before S seconds are over (default: from Slurm)",
+       fill(&Line::walltime_s)},
+      {"fresh", "", "overwrite files that exist", fill_switch(&Line::fresh), {"init"}},
+      {"fresh", "", "overwrite what DIR holds", fill_switch(&Line::fresh)},
+      {"progress",
+       "HOW",
+       "auto, bar, line or none",
+       fill(&Line::progress),
+       {},
+       {"auto", "bar", "line", "none"}},
+      {"log-level",
+       "LEVEL",
+       "of DIR/linkstudy.log: debug, info, warning, error or off",
+       fill(&Line::log_level),
+       {},
+       {"debug", "info", "warning", "error", "off"}},
+  };
+}
+
+// Of the course of driven joints.
+Rows course_options() {
+  using Line = CommandLine;
+  return {
+      {"drive", "joint.NAME[=FROM:TO]",
+       "driven coordinate; repeatable; default: the model's [kinematics], else the joint of the "
+       "first drive load, else the first on ground",
+       fill(&Line::drives)},
+      {"from", "Q", "first position of the drive, such as 0 or \"90 deg\"; default: the start",
+       fill(&Line::from)},
+      {"to", "Q", "last position; default: a full turn on", fill(&Line::to)},
+      {"positions", "N", "number of positions, both ends included (73)", fill(&Line::positions)},
+      {"speed", "V", "constant speed of a single drive (1 rad/s or m/s)", fill(&Line::speed)},
+  };
+}
+
+const Rows& option_rows() {
+  static const Rows rows = [] {
+    Rows all = file_options();
+    for (const Rows& more : {run_options(), course_options()}) {
+      all.insert(all.end(), more.begin(), more.end());
+    }
+    return all;
+  }();
+  return rows;
+}
+
+void require(bool holds, const std::string& message) {
+  if (!holds) throw UsageError(message);
+}
+
+void check_word(const char* option, const CommandLine& line, const std::string& word) {
+  const std::vector<std::string>& words = find_option(option, line.verb).words;
+  if (std::ranges::find(words, word) != words.end()) return;
+  std::string all;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    all += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + words[i];
+  }
+  throw UsageError(fmt::format("--{} must be {}, got '{}'", option, all, word));
+}
+
+}  // namespace
+
+std::string OptionRow::full_name() const {
+  const std::string all = name;
+  return all.substr(0, all.find(','));
+}
+
+std::string OptionRow::short_name() const {
+  const std::string all = name;
+  return all.substr(std::min(full_name().size() + 1, all.size()));
+}
+
+const OptionRow& find_option(const std::string& name, const std::string& verb) {
+  for (const OptionRow& row : option_rows()) {
+    const bool is_of_verb =
+        row.verbs.empty() || std::ranges::find(row.verbs, verb) != row.verbs.end();
+    if (row.name == name && is_of_verb) return row;
+  }
+  throw std::logic_error("an option without a row: " + name);
+}
+
+void check_values(const CommandLine& line) {
+  const auto is_positive = [](const std::optional<double>& value) {
+    return !value || (*value > 0.0 && std::isfinite(*value));
+  };
+  require(is_positive(line.timeout_s), "--timeout must be a positive number of seconds");
+  require(is_positive(line.walltime_s), "--walltime must be a positive number of seconds");
+  require(!line.positions || (*line.positions >= 2 && *line.positions <= 1000000),
+          "--positions must be from 2 to 1000000");
+  require(!line.batch || *line.batch > 0, "--batch must be positive");
+  check_word("progress", line, line.progress);
+  check_word("log-level", line, line.log_level);
+  check_word("format", line, line.format);
+  if (line.man) check_word("man", line, *line.man);
+  if (line.on_failure) check_word("on-failure", line, *line.on_failure);
+  require(!(line.json && line.csv == "-"), "--json and --csv - both want standard output");
+  require(!line.signals || line.csv, "--signals chooses what --csv writes; add --csv FILE");
+}
+
+}  // namespace linkstudy

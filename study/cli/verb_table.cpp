@@ -1,0 +1,108 @@
+#include "study/cli/verb_table.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "core/topology/nearest_name.h"
+
+namespace linkstudy {
+namespace {
+
+constexpr std::size_t kMany = 1000000;
+
+// Verbs that later versions have.
+constexpr std::array kPlanned = {"plan", "converge", "report", "verify"};
+
+std::vector<std::string> run_options(const std::vector<std::string>& own = {}) {
+  std::vector<std::string> names = {"output,o",     "set,s",     "seed",     "on-failure",
+                                    "max-failures", "timeout",   "walltime", "fresh",
+                                    "progress",     "log-level", "json"};
+  names.insert(names.begin() + 3, own.begin(), own.end());
+  return names;
+}
+
+std::vector<std::string> verb_names() {
+  std::vector<std::string> names;
+  for (const VerbRow& verb : verb_rows()) names.emplace_back(verb.name);
+  return names;
+}
+
+}  // namespace
+
+const std::vector<VerbRow>& verb_rows() {
+  static const std::vector<VerbRow> rows = {
+      {"init",
+       "KIND",
+       1,
+       1,
+       "writes a commented input to start from: model, study or tune",
+       {"output,o", "slurm", "fresh"},
+       run_init},
+      {"check",
+       "FILE...",
+       1,
+       kMany,
+       "validates files; lists all problems in one pass",
+       {"json"},
+       run_check},
+      {"describe",
+       "[PATH | channels [MODEL] | units]",
+       0,
+       2,
+       "prints the reference of the keys, of the channels of a model, or of units",
+       {"markdown", "man", "completion"},
+       run_describe},
+      {"simulate",
+       "MODEL",
+       1,
+       1,
+       "runs a model once: statics if asked, then time histories",
+       {"set,s", "timeout", "csv", "signals", "progress", "json"},
+       run_simulate},
+      {"statics",
+       "MODEL",
+       1,
+       1,
+       "finds the static equilibrium and the closure forces there",
+       {"set,s", "json"},
+       run_statics},
+      {"kinematics",
+       "MODEL",
+       1,
+       1,
+       "finds mobility, redundant joints, and the motion over a driven cycle",
+       {"set,s", "drive", "from", "to", "positions", "speed", "csv", "h5", "json"},
+       run_kinematics},
+      {"study", "FILE", 1, 1, "runs a parameter study; starts or continues", run_options(),
+       run_study, true},
+      {"tune", "FILE", 1, 1, "finds the lowest value that matches the reference",
+       run_options({"batch"}), run_tune, true},
+      {"status", "DIR", 1, 1, "tells how far a study is, running or dead", {"json"}, run_status},
+      {"export",
+       "DIR",
+       1,
+       1,
+       "prints the results as a table",
+       {"output,o", "format", "traces"},
+       run_export},
+  };
+  return rows;
+}
+
+const VerbRow& find_verb(const std::string& name) {
+  for (const VerbRow& verb : verb_rows()) {
+    if (name == verb.name) return verb;
+  }
+  if (std::ranges::find(kPlanned, name) != kPlanned.end()) {
+    throw UsageError(fmt::format("'{}' is not supported in this version; verbs: {}", name,
+                                 fmt::join(verb_names(), ", ")));
+  }
+  throw UsageError(
+      fmt::format("there is no verb '{}'; {}", name, suggest_name(name, verb_names())));
+}
+
+}  // namespace linkstudy

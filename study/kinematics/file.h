@@ -1,0 +1,18 @@
+// A kinematic analysis as an HDF5 file that xarray and h5py open (study/store/group_file.h):
+//   /            what kinematics --json tells, as attributes; program and input
+//   /kinematics  axis time; the columns of kinematics_table, NaN where a rate is missing
+//   /poses       axis time; the columns of pose_table
+//   /singular    a row a singular position: kind, time, drive.NAME, quality, z, h, h_R, joints
+//   /loops       a row a basic loop: closure, joints, elements, rank, conditioning
+#pragma once
+
+#include "study/config/model_reader.h"
+#include "study/kinematics/result.h"
+#include "study/store/data_group.h"
+
+namespace linkstudy {
+
+DataGroup kinematics_group(const ModelInput& input, const Model& closed,
+                           const KinematicsResult& result, const std::string& command);
+
+}  // namespace linkstudy

@@ -1,0 +1,379 @@
+#include "study/kinematics/report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/kinematics/three_turns.h"
+#include "study/report/console.h"
+
+namespace linkstudy {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const char* name_of(SingularState state) {
+  return state == SingularState::none        ? "none"
+         : state == SingularState::permanent ? "permanent"
+                                             : "instantaneous";
+}
+
+const char* name_of(SingularKind kind) {
+  return kind == SingularKind::lock ? "lock" : kind == SingularKind::branch ? "branch" : "stop";
+}
+
+std::string plural(int count, const std::string& one, const std::string& many) {
+  return fmt::format("{} {}", count, count == 1 ? one : many);
+}
+
+std::string position_text(const Drive& drive, double value) {
+  return drive.turns ? fmt::format("{:.9g} rad ({:.6g} deg)", value, value * 180.0 / M_PI)
+                     : fmt::format("{:.9g} m", value);
+}
+
+int idle_count(const MobilityReport& r) {
+  int count = 0;
+  for (const IdleFreedom& idle : r.idle) count += idle.count;
+  return count;
+}
+
+// What the numbers mean for the designer.
+std::string verdict(const KinematicsResult& result) {
+  const MobilityReport& r = result.mobility;
+  if (!result.assembly.closed) {
+    return "cannot be assembled: " + open_text(result.assembly);
+  }
+  if (r.mobility == 0 && r.instantaneous_mobility > 0) {
+    return "a structure that gives way slightly: joints can start to move but not go on";
+  }
+  if (r.mobility == 0) return "a structure: nothing moves";
+  std::string text = plural(r.mobility, "freedom", "freedoms");
+  if (const int idle = idle_count(r); idle > 0) text += fmt::format(", {} of them idle", idle);
+  if (contradicts(result)) text += "; the drives contradict each other";
+  if (r.redundant > 0) {
+    text += fmt::format("; overconstrained by {}: moves only as long as its dimensions are exact",
+                        r.redundant);
+  }
+  if (r.instantaneous_mobility > r.mobility) {
+    text += fmt::format("; starts at a singular position, where {} meet",
+                        plural(r.instantaneous_mobility, "freedom", "freedoms"));
+  }
+  return text;
+}
+
+std::string rank_text(const MobilityReport& r) {
+  std::string text = fmt::format("{} of {} closure equations", r.rank.rank, r.rows);
+  if (r.rank.rank > 0) {
+    text += fmt::format(", singular values kept down to {:.3g}, dropped from {:.3g}",
+                        r.rank.smallest_kept, r.rank.largest_dropped);
+  }
+  return text;
+}
+
+std::string redundant_text(const MobilityReport& r) {
+  std::vector<std::string> parts;
+  bool are_alike = static_cast<int>(r.redundant_joints.size()) == r.joints;
+  for (const CarriedRedundancy& joint : r.redundant_joints) {
+    parts.push_back(fmt::format("{} ({})", joint.joint, joint.count));
+    are_alike = are_alike && joint.count == r.redundant_joints.front().count;
+  }
+  const std::string where = are_alike ? "every joint" : fmt::format("{}", fmt::join(parts, ", "));
+  return fmt::format("{}, held twice at {}; single reactions there are not unique", r.redundant,
+                     where);
+}
+
+std::string idle_text(const IdleFreedom& idle) {
+  const std::string count = idle.count > 1 ? fmt::format(" ({} freedoms)", idle.count) : "";
+  return fmt::format("{} moves alone between {}{}", fmt::join(idle.links, " with "),
+                     fmt::join(idle.joints, " and "), count);
+}
+
+// All drives at a position of the course.
+std::string drives_text(const std::vector<Drive>& drives, const Eigen::VectorXd& at) {
+  if (drives.size() == 1) return position_text(drives.front(), at[0]);
+  std::vector<std::string> parts;
+  for (std::size_t i = 0; i < drives.size(); ++i) {
+    parts.push_back(fmt::format("{} = {}", drives[i].name,
+                                position_text(drives[i], at[static_cast<Eigen::Index>(i)])));
+  }
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+std::string singular_text(const std::vector<Drive>& drives, const SingularPosition& p) {
+  const char* what = p.kind == SingularKind::lock ? "locks: cannot be driven beyond"
+                     : p.kind == SingularKind::branch
+                         ? "branches, the drive does not decide which way:"
+                         : "stops: could not be followed beyond";
+  const std::string rests =
+      drives.size() == 1 ? drives.front().name + " rests" : std::string("the drives rest");
+  const std::string angles = singular_angles_text(p.angles);
+  return fmt::format("{} {}; {} may move while {} (h = {}, h_R = {} of {}){}", what,
+                     drives_text(drives, p.drive), fmt::join(p.joints, ", "), rests, p.ranks.h,
+                     p.ranks.h_r, p.regular_rank, angles.empty() ? "" : "; " + angles);
+}
+
+const char* name_of(MotionLaw law) {
+  switch (law) {
+    case MotionLaw::smooth:
+      return "smooth";
+    case MotionLaw::polynomial_345:
+      return "polynomial 3-4-5";
+    case MotionLaw::table:
+      return "table";
+    default:
+      return "linear";
+  }
+}
+
+std::string drive_text(const Drive& drive, const DriveCourse& course, double duration) {
+  const auto range = [&](double from, double to, const char* between) {
+    return fmt::format("{} {} {} {} {}, {} in {:.6g} s", drive.name,
+                       *between == 't' ? "from" : "between", position_text(drive, from), between,
+                       position_text(drive, to), name_of(course.law), duration);
+  };
+  if (course.law == MotionLaw::table) {
+    const auto [least, most] =
+        std::minmax_element(course.positions.begin(), course.positions.end());
+    return range(*least, *most, "and");
+  }
+  if (*course.from == *course.to) {
+    return fmt::format("{} rests at {}", drive.name, position_text(drive, *course.to));
+  }
+  return range(*course.from, *course.to, "to");
+}
+
+std::string drive_names(const std::vector<Drive>& drives) {
+  std::vector<std::string> names;
+  for (const Drive& drive : drives) names.push_back(drive.name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::string overdriven_text(const DrivenLinkage& driven, bool is_complete) {
+  const std::string names = drive_names(driven.drives());
+  if (driven.drives().size() == 1) return names + " cannot move";
+  if (is_complete) return names + ": more drives than freedoms, but their courses fit each other";
+  return names +
+         " contradict each other or the closures: together they cannot move; leave one of them out";
+}
+
+std::string notes_text(const DrivenLinkage& driven, bool is_complete) {
+  std::string text;
+  if (driven.releases_holds()) {
+    text += summary_line("note", "hold = true is left aside: the drives could not move");
+  }
+  if (driven.is_overdriven()) {
+    text += summary_line("note", overdriven_text(driven, is_complete));
+  }
+  if (driven.undetermined() > 0) {
+    text += summary_line("note",
+                         fmt::format("{} not determined by the drives: least motion taken",
+                                     plural(driven.undetermined(), "freedom is", "freedoms are")));
+  }
+  return text;
+}
+
+std::string course_text(const KinematicsResult& result) {
+  const std::vector<Drive>& drives = result.course->drives;
+  const DrivePath& path = result.course->path;
+  const DriveCycle& cycle = result.cycle;
+  std::string text;
+  for (std::size_t i = 0; i < drives.size(); ++i) {
+    text += summary_line("drive", drive_text(drives[i], path.courses()[i], path.duration()));
+  }
+  text += notes_text(*result.driven, cycle.is_complete);
+  if (!cycle.is_reached) text += summary_line("course", "its begin cannot be reached");
+  if (cycle.is_reached) {
+    text += summary_line(
+        "course",
+        fmt::format("{} of {} positions{}", cycle.poses.size(), result.course->options.positions,
+                    cycle.is_complete ? "" : ", the rest cannot be reached"));
+  }
+  if (!cycle.poses.empty()) {
+    const Transmission& worst = cycle.worst;
+    const std::string where =
+        drives.size() == 1 ? drives_text(drives, worst.drive) : fmt::format("{:.6g} s", worst.time);
+    text += summary_line("transmission",
+                         fmt::format("quality at least {:.4g}, at {}", worst.quality, where));
+  }
+  if (result.driven->is_overdriven()) return text;
+  for (const SingularPosition& p : cycle.singular) {
+    text += summary_line("singular", singular_text(drives, p));
+  }
+  return text;
+}
+
+std::string loop_text(const LoopResult& r) {
+  return fmt::format("{}; cut at {}; proper equations {}, conditioning {:.3g}, at least {:.3g}",
+                     fmt::join(r.loop.joints, ", "), cut_of(r.loop), elements_text(r.proper),
+                     r.proper.conditioning, r.least_conditioning);
+}
+
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json singular_json(const KinematicsResult& result) {
+  Json all = Json::array();
+  for (const SingularPosition& p : result.cycle.singular) {
+    const std::vector<Drive>& drives = result.course->drives;
+    Json at = Json::object();
+    for (std::size_t i = 0; i < drives.size(); ++i) {
+      at[drives[i].name] = p.drive[static_cast<Eigen::Index>(i)];
+    }
+    all.push_back({{"kind", name_of(p.kind)},
+                   {"drive", drives.front().name},
+                   {"position", p.drive[0]},
+                   {"drives", at},
+                   {"time", p.time},
+                   {"quality", number(p.quality)},
+                   {"dependent", p.ranks.dependent},
+                   {"h", p.ranks.h},
+                   {"h_R", p.ranks.h_r},
+                   {"regular_rank", p.regular_rank},
+                   {"joints", p.joints},
+                   {"singular_angles", p.angles}});
+  }
+  return all;
+}
+
+Json loops_json(const KinematicsResult& result) {
+  Json all = Json::array();
+  for (const LoopResult& r : result.loops) {
+    Json elements = Json::array();
+    for (const int element : r.proper.elements) elements.push_back(element_name(element));
+    all.push_back({{"cut", cut_of(r.loop)},
+                   {"joints", r.loop.joints},
+                   {"elements", elements},
+                   {"conditioning", number(r.proper.conditioning)},
+                   {"least_conditioning", number(r.least_conditioning)}});
+  }
+  return all;
+}
+
+Json drives_json(const KinematicsResult& result) {
+  Json names = Json::array();
+  for (const Drive& drive : result.course->drives) names.push_back(drive.name);
+  return names;
+}
+
+// Distance of the last singular value kept from the first dropped; null without one of them.
+Json gap_json(const NumericalRank& rank) {
+  return rank.rank > 0 && rank.largest_dropped > 0.0
+             ? Json(rank.smallest_kept / rank.largest_dropped)
+             : Json(nullptr);
+}
+
+Json joints_json(const MobilityReport& r) {
+  Json names = Json::array();
+  for (const CarriedRedundancy& joint : r.redundant_joints) names.push_back(joint.joint);
+  return names;
+}
+
+Json idle_json(const MobilityReport& r) {
+  Json all = Json::array();
+  for (const IdleFreedom& idle : r.idle) {
+    all.push_back({{"links", idle.links}, {"joints", idle.joints}, {"count", idle.count}});
+  }
+  return all;
+}
+
+// The equations behind it all.
+std::string equations_text(const KinematicsResult& result) {
+  const MobilityReport& r = result.mobility;
+  std::string text = summary_line(
+      "parts", fmt::format("{} with ground, {}, {}, {}", plural(r.links, "link", "links"),
+                           plural(r.joints, "joint", "joints"), plural(r.loops, "loop", "loops"),
+                           plural(r.coordinates, "coordinate", "coordinates")));
+  text += summary_line("rank", rank_text(r));
+  if (!result.assembly.closed) return text;
+  const char* state =
+      r.state == SingularState::none ? "regular"
+      : r.state == SingularState::permanent
+          ? "permanent singular state: equations are redundant everywhere"
+      : r.redundant > 0      ? "instantaneous singular state: equations are redundant everywhere, "
+                               "more of them here"
+      : r.rank.rank < r.rows ? "instantaneous singular state: equations are redundant here only"
+                             : "instantaneous singular state: joints give way to first order only";
+  text += summary_line("state", state);
+  for (const LoopResult& loop : result.loops) text += summary_line("loop", loop_text(loop));
+  if (!result.driven) return text;
+  const std::string branch = result.branch == 0 ? "" : fmt::format(", branch {:+d}", result.branch);
+  return text +
+         summary_line("drive rank",
+                      fmt::format("h = {}, h_R = {} of {} dependent coordinates{}", result.ranks.h,
+                                  result.ranks.h_r, result.ranks.dependent, branch));
+}
+
+}  // namespace
+
+std::string kinematics_text(const std::string& file, const std::string& name,
+                            const KinematicsResult& result) {
+  constexpr double kMoved = 1e-6;  // rad or m
+  const MobilityReport& r = result.mobility;
+  std::string text = summary_line("model", fmt::format("{} ({})", name, file));
+  text += summary_line("verdict", verdict(result));
+  text += summary_line("mobility", fmt::format("{} (Kutzbach {}, at this position {})", r.mobility,
+                                               r.kutzbach, r.instantaneous_mobility));
+  if (result.assembly.closed && result.assembly.displacement > kMoved) {
+    text += summary_line(
+        "start", fmt::format("moved by {:.3g} (rad, m) to close", result.assembly.displacement));
+  }
+  for (const std::string& flipped : flipped_texts(result.assembly)) {
+    text += summary_line("warning", flipped);
+  }
+  if (result.assembly.closed && r.redundant > 0) {
+    text += summary_line("redundant", redundant_text(r));
+  }
+  for (const IdleFreedom& idle : r.idle) text += summary_line("idle", idle_text(idle));
+  if (result.driven) text += course_text(result);
+  return text + equations_text(result);
+}
+
+std::string kinematics_json(const KinematicsResult& result) {
+  const MobilityReport& r = result.mobility;
+  Json json = {{"mobility", r.mobility},
+               {"instantaneous_mobility", r.instantaneous_mobility},
+               {"kutzbach", r.kutzbach},
+               {"redundant_constraints", r.redundant},
+               {"redundant_joints", joints_json(r)},
+               {"idle_freedoms", idle_json(r)},
+               {"links", r.links},
+               {"joints", r.joints},
+               {"loops", r.loops},
+               {"coordinates", r.coordinates},
+               {"rank", r.rank.rank},
+               {"rank_gap", gap_json(r.rank)},
+               {"singular_state", name_of(r.state)},
+               {"singular_positions", singular_json(result)},
+               {"basic_loops", loops_json(result)},
+               {"closed", result.assembly.closed},
+               {"flipped", result.assembly.flipped},
+               {"verdict", verdict(result)}};
+  if (result.driven) {
+    json["drive"] = result.course->drives.front().name;
+    json["drives"] = drives_json(result);
+    json["dependent"] = result.ranks.dependent;
+    json["h"] = result.ranks.h;
+    json["h_R"] = result.ranks.h_r;
+    json["branch"] = result.branch;
+    json["positions"] = result.cycle.poses.size();
+    json["complete"] = result.cycle.is_complete;
+    json["contradiction"] = contradicts(result);
+  }
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string cut_of(const BasicLoop& loop) {
+  const auto is_cut = [](const std::string& name) { return name.starts_with("closure."); };
+  return *std::find_if(loop.joints.begin(), loop.joints.end(), is_cut);
+}
+
+std::string elements_text(const ProperElements& proper) {
+  std::vector<std::string> names;
+  for (const int element : proper.elements) names.emplace_back(element_name(element));
+  return fmt::format("{}", fmt::join(names, " "));
+}
+
+}  // namespace linkstudy

@@ -1,0 +1,41 @@
+// Everything `kinematics` finds out about a model.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/kinematics/loop_equations.h"
+#include "study/kinematics/course.h"
+
+namespace linkstudy {
+
+// A basic loop with its proper elements, chosen at the start.
+struct LoopResult {
+  BasicLoop loop;
+  ProperElements proper;
+  double least_conditioning = 0.0;  // of the same elements over the course
+};
+
+struct KinematicsResult {
+  AssemblyReport assembly;
+  MobilityReport mobility;
+  std::optional<KinematicsCourse> course;  // nothing where there is nothing to drive
+  std::optional<DrivenLinkage> driven;
+  DriveRanks ranks;  // at the start
+  int branch = 0;    // there
+  DriveCycle cycle;
+  std::vector<LoopResult> loops;
+};
+
+// More drives than freedoms whose courses do not agree with the closures.
+bool contradicts(const KinematicsResult& result);
+// What the exit code tells: the model was assembled, and the drives, if any, led somewhere.
+bool is_followed(const KinematicsResult& result);
+// The course ended where angles of a joint are singular, which says nothing of the linkage.
+bool ends_at_singular_angles(const KinematicsResult& result);
+
+KinematicsResult analyse_kinematics(const CourseRequest& request, const KinematicsOptions& declared,
+                                    const Model& closed);
+
+}  // namespace linkstudy

@@ -1,0 +1,15 @@
+// What was built: version, revision, compiler, step loops.
+#pragma once
+
+#include <string>
+
+namespace linkstudy {
+
+std::string program_version();  // "0.1.0"
+std::string git_revision();     // "cbf8e1e", "" where it is not known
+std::string build_text();       // "Release, GNU 12.2.0"
+std::string hdf5_version();     // "1.10.8"
+// The step loops in use: "avx512, 8 lanes". Throws SimdError.
+std::string simd_text();
+
+}  // namespace linkstudy

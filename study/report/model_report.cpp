@@ -1,0 +1,268 @@
+#include "study/report/model_report.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "study/report/console.h"
+
+namespace linkstudy {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kStability[] = {"stable", "neutral", "unstable"};
+
+std::string assembly_text(const AssemblyReport& a) {
+  std::string text = fmt::format("{}, residual {:.3g}", a.closed ? "closed" : "open", a.residual);
+  if (a.displacement > 0.0) {
+    text += fmt::format(" (given {:.3g}, moved {:.3g} in {} iterations)", a.residual_given,
+                        a.displacement, a.iterations);
+  }
+  if (a.restarts > 0) text += fmt::format(", restart {}", a.restarts);
+  if (a.rows > 0) {
+    text += a.branch == 0 ? ", branch not defined" : fmt::format(", branch {:+d}", a.branch);
+  }
+  return text;
+}
+
+std::string mobility_text(const AssemblyReport& a, int velocities) {
+  std::string text = fmt::format("{} ({} velocities, {} closure equations of rank {}", a.mobility,
+                                 velocities, a.rows, a.rank);
+  if (a.rank < a.rows) text += fmt::format(", {} redundant", a.rows - a.rank);
+  return text + ")";
+}
+
+constexpr const char* kStiffnessUnits[] = {"N/m", "N m/rad", "N m/rad"};
+
+std::string stiffness_unit(const StaticsReport& s) {
+  return kStiffnessUnits[static_cast<int>(s.unit)];
+}
+
+// What the number is: the least eigenvalue on the free directions, translations in extents.
+std::string stiffness_text(const StaticsReport& s) {
+  if (s.directions == 0) return "a structure: nothing can move";
+  std::string text;
+  if (s.neutral > 0) text = fmt::format("no stiffness in {} of {} ", s.neutral, s.directions);
+  if (s.neutral > 0) text += s.directions == 1 ? "direction" : "directions";
+  if (s.neutral < s.directions) {
+    text += fmt::format("{}smallest stiffness {:.4g} {}", s.neutral > 0 ? ", beside them " : "",
+                        s.smallest_beyond, stiffness_unit(s));
+  }
+  if (s.unit == StiffnessUnit::mixed) {
+    text += fmt::format(" (translations count over {:.3g} m)", s.extent);
+  }
+  return text;
+}
+
+std::string statics_text(const StaticsReport& s) {
+  if (!s.converged) return fmt::format("not found in {} iterations", s.iterations);
+  return fmt::format("{}, {}, loads of t = {:.6g} s, force residual {:.3g} in {} iterations",
+                     kStability[static_cast<int>(s.stability)], stiffness_text(s), s.time,
+                     s.force_residual, s.iterations);
+}
+
+// Joints whose friction statics leaves out.
+std::vector<std::string> joints_with_friction(const Mechanism& m) {
+  std::vector<std::string> names;
+  for (const JointFrictionStructure& f : m.frictions) {
+    names.push_back(m.joint_names[static_cast<std::size_t>(f.body)]);
+  }
+  return names;
+}
+
+std::string equilibrium_lines(const Preparation& preparation) {
+  std::string text = summary_line("equilibrium", statics_text(*preparation.statics));
+  const std::vector<std::string> joints = joints_with_friction(preparation.model.mechanism);
+  if (joints.empty()) return text;
+  return text + summary_line("left out", fmt::format("friction of joint {} (statics has none)",
+                                                     fmt::join(joints, ", ")));
+}
+
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json equilibrium_json(const Preparation& preparation) {
+  const StaticsReport& s = *preparation.statics;
+  return {
+      {"time", s.time},
+      {"stability", kStability[static_cast<int>(s.stability)]},
+      {"free_directions", s.directions},
+      {"without_stiffness", s.neutral},
+      {"smallest_stiffness", s.directions > s.neutral ? number(s.smallest_beyond) : Json(nullptr)},
+      {"stiffness_unit", stiffness_unit(s)},
+      {"stiffness_extent", s.unit == StiffnessUnit::mixed ? number(s.extent) : Json(nullptr)},
+      {"force_residual", number(s.force_residual)},
+      {"closure_residual", number(s.closure_residual)},
+      {"displacement", number(s.displacement)},
+      {"iterations", s.iterations},
+      {"friction_left_out", joints_with_friction(preparation.model.mechanism)}};
+}
+
+Json outcome_object(const Preparation& preparation, const SimulationOutcome* outcome,
+                    double wall_s) {
+  const bool ran = outcome != nullptr;
+  const Cause cause = ran ? outcome->cause : preparation.cause;
+  const bool is_prepared = preparation.cause == Cause::ok;
+  const double nan = std::nan("");
+  const StepLimit unknown{nan, nan, nan};
+  const StepLimit limit =
+      !ran ? is_prepared ? worse({}, preparation.spectrum, 0.0) : unknown : outcome->step_limit;
+  return {{"status", cause == Cause::ok ? "done" : "failed"},
+          {"cause", name_of(cause)},
+          {"message", ran ? outcome->message : preparation.message},
+          {"end_time", number(ran ? outcome->end_time : 0.0)},
+          {"steps", ran ? outcome->steps : 0},
+          {"rejected", ran ? outcome->rejected : 0},
+          {"evaluations", ran ? outcome->evaluations : 0},
+          {"contacts", ran ? outcome->contacts : 0},
+          {"least_contact_steps", ran ? outcome->least_contact_steps : 0},
+          {"drift_max", number(ran ? outcome->drift_max : nan)},
+          {"energy_residual_max", number(ran ? outcome->energy_residual_max : nan)},
+          {"step_limit", number(limit.seconds)},
+          {"omega_max", number(limit.omega_max)},
+          {"wall_s", wall_s}};
+}
+
+std::string text_of(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace
+
+std::string preparation_text(const std::string& file, const std::string& name,
+                             const Preparation& preparation, const SimulationOptions& options) {
+  const Spectrum& spectrum = preparation.spectrum;
+  const double h = make_step_grid(options).h;
+  std::string text = summary_line("model", fmt::format("{} ({})", name, file));
+  text += summary_line("assembly", assembly_text(preparation.assembly));
+  if (!preparation.assembly.closed) return text;
+  text +=
+      summary_line("mobility", mobility_text(preparation.assembly, preparation.model.mechanism.nv));
+  if (preparation.statics) text += equilibrium_lines(preparation);
+  if (preparation.cause != Cause::ok) return text;
+  text += summary_line("omega_max", fmt::format("{:.6g} rad/s at the start", spectrum.omega_max));
+  text += summary_line("step", fmt::format("{:.6g} s, RK4 limit {:.4g} s, h omega_max {:.3g}", h,
+                                           spectrum.step_limit, h * spectrum.omega_max));
+  return text;
+}
+
+std::string failure_text(const Preparation& preparation) {
+  return fmt::format("linkstudy: error: {}: {}\n", name_of(preparation.cause), preparation.message);
+}
+
+std::string values_text(const std::vector<StaticValue>& values) {
+  std::string text = "\n";
+  for (const StaticValue& value : values) {
+    text += fmt::format("{:<28}{:>16.9g} {}\n", value.name, value.value, value.unit);
+  }
+  return text;
+}
+
+std::string warning_text(const Preparation& preparation) {
+  std::string text;
+  for (const std::string& warning : preparation.warnings) {
+    text += fmt::format("linkstudy: warning: {}\n", warning);
+  }
+  return text;
+}
+
+namespace {
+
+// Fewer equal steps in a contact do not follow its force.
+constexpr long kStepsOfContact = 20;
+
+std::string contacts_text(const SimulationOutcome& outcome) {
+  std::string text = fmt::format("{} begun", outcome.contacts);
+  const long least = outcome.least_contact_steps;
+  if (least > 0) text += fmt::format(", the shortest that ended took {} steps", least);
+  return text;
+}
+
+std::string limit_text(const StepLimit& limit) {
+  return fmt::format("least of RK4 {:.4g} s at t = {:.4g} s, omega_max {:.6g} rad/s", limit.seconds,
+                     limit.t, limit.omega_max);
+}
+
+std::vector<std::string> outcome_notes(const SimulationOutcome& outcome,
+                                       const SimulationOptions& options) {
+  std::vector<std::string> notes;
+  const long least = outcome.least_contact_steps;
+  if (options.integrator == Integrator::rk4 && least > 0 && least < kStepsOfContact) {
+    notes.push_back(
+        fmt::format("a contact took {} steps; {} follow its force: shorten simulation.step, or use "
+                    "simulation.integrator = \"adaptive\"",
+                    least, kStepsOfContact));
+  }
+  if (options.integrator == Integrator::rk4 && outcome.contacts > 0 &&
+      outcome.cause == Cause::diverged) {
+    notes.push_back(
+        "constant steps are unstable where friction damps fast (sigma1 times normal force over "
+        "mass): "
+        "use simulation.integrator = \"adaptive\", or friction.damping_speed");
+  }
+  if (outcome.greatest_rank > outcome.least_rank) {
+    notes.push_back(
+        fmt::format("the rank of the closure equations changed between {} and {}: a singular pose "
+                    "was passed, or "
+                    "the steps are coarse",
+                    outcome.least_rank, outcome.greatest_rank));
+  } else if (outcome.redundant) {
+    notes.push_back(
+        fmt::format("closure equations are redundant: their rank is {}", outcome.least_rank));
+  }
+  if (!energy_balances(outcome)) {
+    notes.push_back("energy does not balance within 1 %: the step is too long");
+  }
+  return notes;
+}
+
+}  // namespace
+
+std::string outcome_text(const SimulationOutcome& outcome, const SimulationOptions& options,
+                         double wall_s) {
+  std::string text =
+      summary_line("status", outcome.cause == Cause::ok
+                                 ? std::string("ok")
+                                 : fmt::format("{}: {}", name_of(outcome.cause), outcome.message));
+  std::string reached = fmt::format("{:.6g} s in {} steps", outcome.end_time, outcome.steps);
+  if (options.integrator != Integrator::rk4) {
+    reached +=
+        fmt::format(", {} more tried again, {} evaluations", outcome.rejected, outcome.evaluations);
+  }
+  text += summary_line("reached", reached);
+  if (options.integrator == Integrator::rk4) {
+    text += summary_line("limit", limit_text(outcome.step_limit));
+  }
+  if (outcome.contacts > 0) text += summary_line("contacts", contacts_text(outcome));
+  text += summary_line("drift_max", fmt::format("{:.4g}", outcome.drift_max));
+  text += summary_line("energy", fmt::format("residual at most {:.4g} J of {:.4g} J",
+                                             outcome.energy_residual_max, outcome.energy_scale));
+  for (const std::string& note : outcome_notes(outcome, options)) {
+    text += summary_line("note", note);
+  }
+  return text + summary_line("wall", fmt::format("{:.3g} s", wall_s));
+}
+
+std::string outcome_json(const Preparation& preparation, const SimulationOutcome* outcome,
+                         double wall_s) {
+  return text_of(outcome_object(preparation, outcome, wall_s));
+}
+
+std::string statics_json(const Preparation& preparation, const std::vector<StaticValue>& values,
+                         double wall_s) {
+  Json json = outcome_object(preparation, nullptr, wall_s);
+  if (preparation.cause != Cause::ok) return text_of(json);
+  json["equilibrium"] = equilibrium_json(preparation);
+  json["values"] = json["units"] = Json::object();
+  for (const StaticValue& value : values) {
+    json["values"][value.name] = number(value.value);
+    json["units"][value.name] = value.unit;
+  }
+  return text_of(json);
+}
+
+}  // namespace linkstudy

@@ -1,0 +1,39 @@
+// What a prepared model and its run look like to people and to programs.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/simulation/prepare.h"
+#include "core/simulation/simulate.h"
+#include "study/evaluate/equilibrium.h"
+
+namespace linkstudy {
+
+// Assembly, mobility, redundancy, equilibrium, eigenfrequency and step limit as aligned lines.
+std::string preparation_text(const std::string& file, const std::string& name,
+                             const Preparation& preparation, const SimulationOptions& options);
+
+// Warnings, one a line.
+std::string warning_text(const Preparation& preparation);
+
+// Why there was no run.
+std::string failure_text(const Preparation& preparation);
+
+// Values of an equilibrium, one a line.
+std::string values_text(const std::vector<StaticValue>& values);
+
+// How the run ended, with a note where contacts were too short for the step.
+std::string outcome_text(const SimulationOutcome& outcome, const SimulationOptions& options,
+                         double wall_s);
+
+// The object of `simulate --json`. Numbers that are not finite are null.
+std::string outcome_json(const Preparation& preparation, const SimulationOutcome* outcome,
+                         double wall_s);
+
+// The object of `statics --json`: that of a run, the equilibrium, and its values and units by name.
+std::string statics_json(const Preparation& preparation, const std::vector<StaticValue>& values,
+                         double wall_s);
+
+}  // namespace linkstudy

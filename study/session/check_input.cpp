@@ -1,0 +1,20 @@
+#include "study/session/check_input.h"
+
+#include "study/config/check_file.h"
+#include "study/config/toml_reader.h"
+#include "study/session/study_points.h"
+
+namespace linkstudy {
+
+void check_input(const std::string& path, Diagnostics& diagnostics) {
+  check_file(path, diagnostics);
+  if (!diagnostics.empty()) return;
+  Diagnostics said_before;
+  const std::optional<Tree> tree = read_toml_file(path, said_before);
+  const std::optional<std::string> kind = tree ? kind_of(*tree, said_before) : std::nullopt;
+  if (!kind || *kind == "model") return;
+  const std::optional<StudyInput> input = read_study(path, {}, said_before);
+  if (input) make_evaluator(*input, diagnostics);
+}
+
+}  // namespace linkstudy

@@ -1,0 +1,108 @@
+#include "study/session/identity.h"
+
+#include <fmt/format.h>
+#include <sys/utsname.h>
+
+#include <filesystem>
+#include <thread>
+
+#include "core/base/isa.h"
+#include "study/config/toml_reader.h"
+#include "study/config/toml_writer.h"
+#include "study/record/digest.h"
+#include "study/record/version.h"
+#include "study/schedule/batch_job.h"
+#include "study/session/version_text.h"
+#include "study/store/status.h"
+
+namespace linkstudy {
+namespace {
+
+// Settings that change how a study is run and not what it computes.
+Tree without_run_settings(Tree resolved) {
+  if (Tree* run = resolved.find("run")) {
+    for (const char* key : {"timeout", "max_failures", "on_failure"}) run->erase(key);
+  }
+  return resolved;
+}
+
+std::string text_of_file(const std::string& path) {
+  Diagnostics ignored;  // it was read before; if it has gone since, the text is left empty
+  return read_text_file(path, ignored).value_or("");
+}
+
+std::string commented(const std::string& text) {
+  std::string result;
+  std::size_t at = 0;
+  while (at < text.size()) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    result += "# " + text.substr(at, end - at) + "\n";
+    at = end + 1;
+  }
+  return result;
+}
+
+// The study with all defaults; what --set changed and the models follow as comments, so that the
+// text is a study file again.
+std::string resolved_text(const SessionOptions& options, const StudyInput& input) {
+  std::string text = write_toml(input.resolved);
+  for (const std::string& set : options.set) text += fmt::format("\n# --set {}\n", set);
+  text += fmt::format("\n# Model of the cases, {}, with --set in it:\n", input.model->file());
+  text += commented(write_toml(input.model->tree()));
+  if (input.reference && input.reference->model != input.model) {
+    text += fmt::format("\n# Model of the reference, {}:\n", input.reference->model->file());
+    text += commented(write_toml(input.reference->model->tree()));
+  }
+  return text;
+}
+
+std::string machine_text(const Transport& transport) {
+  utsname name{};
+  uname(&name);
+  return fmt::format("{} {} {}, {} processors, {} nodes", name.sysname, name.release, name.machine,
+                     std::thread::hardware_concurrency(), transport.nodes());
+}
+
+}  // namespace
+
+StudyIdentity make_identity(const SessionOptions& options, const Evaluator& evaluator,
+                            std::uint64_t total, const Transport& transport) {
+  const StudyInput& input = evaluator.input();
+  StudyIdentity identity;
+  const bool is_tune = input.kind == StudyKind::tune;
+  identity.description = {input.name, is_tune ? "tune" : "study", input.run.seed,
+                          evaluator.parameters(), evaluator.responses()};
+  std::vector<std::string> texts = {write_toml(without_run_settings(input.resolved)),
+                                    write_toml(input.model->tree())};
+  if (input.reference) texts.push_back(write_toml(input.reference->model->tree()));
+  identity.input_sha256 = input_sha256(texts);
+  identity.texts = {{"input", text_of_file(input.file)},
+                    {"model", text_of_file(input.model->file())},
+                    {"resolved", resolved_text(options, input)},
+                    {"build", version_text()},
+                    {"machine", machine_text(transport)}};
+  const BatchJob job = find_batch_job(read_environment);
+  identity.start = {"",
+                    unix_time_s(),
+                    total,
+                    static_cast<std::uint32_t>(transport.size()),
+                    transport.host(),
+                    program_version(),
+                    git_revision(),
+                    options.command,
+                    std::string(name_of(simd_level().isa)),
+                    static_cast<std::uint32_t>(simd_level().lanes),
+                    job.id,
+                    job.restart};
+  return identity;
+}
+
+std::string directory_of(const SessionOptions& options, const StudyInput& input) {
+  if (options.output) return *options.output;
+  const bool has_name = input.name != "unnamed";
+  const std::string name =
+      has_name ? input.name : std::filesystem::path(input.file).stem().string();
+  return "results/" + slug_of(name);
+}
+
+}  // namespace linkstudy

@@ -1,0 +1,20 @@
+// What makes a study the same study when it is started again, and what its results say about where
+// they come from.
+#pragma once
+
+#include "study/evaluate/evaluator.h"
+#include "study/schedule/transport.h"
+#include "study/session/options.h"
+#include "study/session/study_record.h"
+
+namespace linkstudy {
+
+// The digest covers the resolved study, the models it names as far as they are written, and the
+// seed; not how long it may run or how many failures are accepted.
+StudyIdentity make_identity(const SessionOptions& options, const Evaluator& evaluator,
+                            std::uint64_t total, const Transport& transport);
+
+// -o, or results/<name of the study> under the current directory.
+std::string directory_of(const SessionOptions& options, const StudyInput& input);
+
+}  // namespace linkstudy

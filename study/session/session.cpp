@@ -1,0 +1,212 @@
+#include "study/session/session.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "core/base/isa.h"
+#include "study/evaluate/form_packs.h"
+#include "study/report/console.h"
+#include "study/session/interrupted.h"
+#include "study/store/store_error.h"
+
+namespace linkstudy {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+Evaluation to_evaluation(const Point& point, const CaseResult& result, int rank, double seconds) {
+  Evaluation evaluation;
+  evaluation.point = point;
+  evaluation.status = result.status;
+  evaluation.message = one_line(result.message);
+  evaluation.responses = result.responses;
+  evaluation.attempts = result.attempts;
+  evaluation.wall_s = seconds;
+  evaluation.rank = rank;
+  evaluation.host = result.host;
+  return evaluation;
+}
+
+std::vector<CaseResult> results_of(const TaskResult& task, std::size_t count) {
+  if (!task.failed) return decode_results(task.bytes);
+  CaseResult result;
+  result.status = task.lost ? Cause::rank_lost : Cause::exception;
+  result.message = task.bytes;
+  return std::vector<CaseResult>(count, result);
+}
+
+bool same_values(const Point& a, const Point& b) {
+  return encode_points({&a, 1}) == encode_points({&b, 1});
+}
+
+std::size_t failure_limit(const RunOptions& run, std::uint64_t total) {
+  if (!run.max_failures) return std::numeric_limits<std::size_t>::max();
+  const double share = run.max_failures->is_percent ? static_cast<double>(total) / 100.0 : 1.0;
+  return static_cast<std::size_t>(run.max_failures->value * share);
+}
+
+}  // namespace
+
+std::string one_line(std::string text) {
+  std::ranges::replace(text, '\n', ' ');
+  return text;
+}
+
+std::uint64_t most_evaluations(const StudyInput& input, std::uint64_t total) {
+  return total > 0 ? total : static_cast<std::uint64_t>(input.search.max_evaluations);
+}
+
+std::string counts_text(const StudyRecord& record, std::uint64_t total) {
+  const std::uint64_t finished = record.evaluations().size();
+  const std::uint64_t failed = record.failure_count();
+  if (total == 0) return fmt::format("{} done, {} failed", finished - failed, failed);
+  return fmt::format("{} of {} done, {} failed, {} left", finished - failed, total, failed,
+                     total - std::min(finished, total));
+}
+
+StudySession::StudySession(const SessionOptions& options, Evaluator& evaluator, StudyRecord& record,
+                           Pool& pool, spdlog::logger& log, std::uint64_t total)
+    : evaluator_(evaluator),
+      record_(record),
+      pool_(pool),
+      log_(log),
+      total_(total),
+      failures_(record.failure_count()),
+      progress_(*find_progress_mode(options.progress), most_evaluations(evaluator.input(), total),
+                record.evaluations().size(), Clock::now()) {}
+
+void StudySession::evaluate(const std::vector<Point>& points) {
+  check_failures();
+  const std::vector<Point> missing = missing_of(points);
+  const auto& parameters = evaluator_.parameters();
+  run_packs(form_packs(missing, parameters, simd_level().lanes, pool_.ranks()));
+  // What failed outside the evaluations (no memory, a message over its limit) may do alone.
+  run_packs(form_packs(missing_of(missing), parameters, 1, pool_.ranks()));
+}
+
+std::vector<Point> StudySession::missing_of(const std::vector<Point>& points) const {
+  std::vector<Point> missing;
+  for (const Point& point : points) {
+    const auto known = record_.evaluations().find(point.id);
+    if (known == record_.evaluations().end()) {
+      missing.push_back(point);
+    } else if (!same_values(known->second.point, point)) {
+      throw StoreError(fmt::format(
+          "{}: evaluation {} in the journal has other inputs than this program asks for; continue "
+          "with the program that wrote it or overwrite it with --fresh",
+          record_.directory().string(), point.id));
+    }
+  }
+  return missing;
+}
+
+void StudySession::run_packs(const std::vector<std::vector<Point>>& packs) {
+  if (packs.empty()) return;
+  has_cancelled_ = false;
+  std::vector<std::string> tasks;
+  points_before_ = {0};
+  packs_taken_ = points_taken_ = 0;
+  for (const std::vector<Point>& pack : packs) {
+    tasks.push_back(encode_points(pack));
+    points_before_.push_back(points_before_.back() + pack.size());
+  }
+  const RunOutcome outcome = pool_.run(
+      std::move(tasks), [&](const TaskResult& task) { take_pack(packs[task.index], task); });
+  record_.journal().sync();
+  end_run(outcome);
+}
+
+void StudySession::end_run(const RunOutcome& outcome) {
+  abandoned_ = outcome.end == RunEnd::abandoned || outcome.end == RunEnd::no_rank;
+  if (outcome.end == RunEnd::no_rank) {
+    print_err("linkstudy: error: no rank is left that works\n");
+  }
+  if (outcome.interrupted() || has_cancelled_) {
+    log_.warn("interrupted: {}", outcome.end == RunEnd::no_rank       ? "no rank is left"
+                                 : outcome.reason == RunEnd::deadline ? "wall time"
+                                                                      : "stop signal");
+    throw Interrupted();
+  }
+  if (!stop_reason_.empty()) throw TooManyFailures(stop_reason_);
+}
+
+// A pack that failed as a whole is left missing, so that its points are run alone; what was
+// cancelled is nobody's result and is left to the next start.
+void StudySession::take_pack(const std::vector<Point>& pack, const TaskResult& task) {
+  ++packs_taken_;
+  points_taken_ += pack.size();
+  if (task.failed && pack.size() > 1) {
+    log_.warn("{} evaluations from {} on: {}", pack.size(), pack[0].id, one_line(task.bytes));
+    return;
+  }
+  const std::vector<CaseResult> results = results_of(task, pack.size());
+  const double seconds = task.seconds / static_cast<double>(pack.size());
+  for (std::size_t i = 0; i < pack.size(); ++i) {
+    if (results.at(i).status == Cause::cancelled) {
+      has_cancelled_ = true;
+    } else {
+      take(to_evaluation(pack[i], results[i], task.rank, seconds), results[i].traces);
+    }
+  }
+  progress_.update(record_.evaluations().size(), failures_, Clock::now());
+}
+
+void StudySession::take(const Evaluation& evaluation, const std::vector<CaseTraces>& traces) {
+  record_.add(evaluation, traces);
+  log_.debug("evaluation {}: {} in {:.3g} s on rank {}", evaluation.point.id,
+             name_of(evaluation.status), evaluation.wall_s, evaluation.rank);
+  if (evaluation.status == Cause::ok) return;
+  ++failures_;
+  log_.warn("evaluation {}: {}: {}", evaluation.point.id, name_of(evaluation.status),
+            evaluation.message);
+  try {
+    check_failures();
+  } catch (const TooManyFailures& reason) {
+    stop_reason_ = reason.what();
+    pool_.cancel();
+  }
+}
+
+void StudySession::check_failures() {
+  const RunOptions& run = evaluator_.input().run;
+  if (failures_ > 0 && run.on_failure == FailurePolicy::abort) {
+    const auto& all = record_.evaluations();
+    const auto failed = std::ranges::find_if(
+        all, [](const auto& entry) { return entry.second.status != Cause::ok; });
+    throw TooManyFailures(fmt::format("evaluation {} failed ({}): {}; on-failure is abort",
+                                      failed->first, name_of(failed->second.status),
+                                      failed->second.message));
+  }
+  const std::size_t limit = failure_limit(run, most_evaluations(evaluator_.input(), total_));
+  if (failures_ <= limit) return;
+  throw TooManyFailures(
+      fmt::format("{} evaluations failed, {} are accepted (max_failures)", failures_, limit));
+}
+
+// Packs are handed out in order.
+std::size_t StudySession::count_running() const {
+  if (points_before_.empty()) return 0;
+  const std::size_t handed_out =
+      std::min(packs_taken_ + pool_.in_flight(), points_before_.size() - 1);
+  return points_before_[handed_out] - std::min(points_taken_, points_before_[handed_out]);
+}
+
+void StudySession::tick() {
+  progress_.set_running(count_running());
+  progress_.tick(Clock::now());
+  record_.journal().sync_if_due();
+  record_.write_if_due();
+}
+
+bool StudySession::is_exhausted() const {
+  return total_ > 0 && record_.evaluations().size() >= total_;
+}
+
+void StudySession::finish_progress() {
+  if (total_ == 0) return;  // a tune ends below its budget: "25 %, 1 min left" would mislead
+  progress_.finish(Clock::now());
+}
+
+}  // namespace linkstudy

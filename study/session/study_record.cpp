@@ -1,0 +1,194 @@
+#include "study/session/study_record.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "core/base/isa.h"
+#include "study/store/directory.h"
+#include "study/store/file.h"
+#include "study/store/results_file.h"
+#include "study/store/status.h"
+#include "study/store/store_error.h"
+
+namespace linkstudy {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::seconds kFirstWrite{30};
+constexpr int kWriteShare = 50;
+
+// Makes the directory; the rest of the members follow it.
+const std::filesystem::path& prepared(const std::filesystem::path& directory, bool fresh) {
+  prepare_directory(directory, fresh);
+  return directory;
+}
+
+bool was_begun_by_job(const std::filesystem::path& directory, const ProvenanceRow& now) {
+  if (now.restart == 0 || !std::filesystem::exists(directory / kJournalName)) return false;
+  const std::vector<ProvenanceRow> rows = read_journal(directory).provenance;
+  return std::ranges::any_of(rows, [&](const ProvenanceRow& row) {
+    return row.job == now.job && row.restart < now.restart;
+  });
+}
+
+// Evaluations of one study come from sets that round alike: with fused multiply-adds or without.
+void require_same_rounding(const JournalContents& contents, const ProvenanceRow& now,
+                           const std::filesystem::path& directory) {
+  if (contents.evaluations.empty() || contents.provenance.empty()) return;
+  const std::string& before = contents.provenance.back().simd;
+  const std::string baseline(name_of(InstructionSet::baseline));
+  if (before.empty() || (before == baseline) == (now.simd == baseline)) return;
+  if (summarize_status(contents, 0.0, 0.0).is_complete) return;
+  const bool is_choice = before == baseline;
+  throw StoreError(fmt::format(
+      "{}: {} evaluations were made with instruction set {}, this start has {}, which rounds "
+      "differently; {}, or overwrite them with --fresh",
+      directory.string(), contents.evaluations.size(), before, now.simd,
+      is_choice ? "continue with LINKSTUDY_SIMD=baseline" : "continue on a machine that has it"));
+}
+
+TraceSet to_trace_set(const std::string& base, std::int64_t id, const CaseTraces& traces) {
+  const std::string suffix = traces.load_case.empty() ? "" : "_" + traces.load_case;
+  return {base + suffix, id, traces.traces};
+}
+
+const std::string& text_named(const std::vector<NamedText>& texts, const std::string& name) {
+  return std::ranges::find(texts, name, &NamedText::name)->text;
+}
+
+}  // namespace
+
+std::string slug_of(const std::string& name) {
+  std::string slug;
+  for (const char c : name) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 128 && std::isalnum(byte) != 0) {
+      slug += static_cast<char>(std::tolower(byte));
+    } else if (!slug.empty() && slug.back() != '-') {
+      slug += '-';
+    }
+  }
+  while (!slug.empty() && slug.back() == '-') slug.pop_back();
+  return slug.empty() ? "study" : slug.substr(0, 80);
+}
+
+StudyRecord::StudyRecord(std::filesystem::path directory, const StudyIdentity& identity, bool fresh)
+    : directory_(std::move(directory)),
+      is_made_(!std::filesystem::exists(directory_)),
+      keeps_own_job_(fresh && was_begun_by_job(directory_, identity.start)),
+      journal_(prepared(directory_, fresh), identity.input_sha256,
+               fresh && !keeps_own_job_ ? OpenMode::fresh : OpenMode::resume),
+      next_write_(Clock::now() + kFirstWrite) {
+  require_same_rounding(journal_.contents(), identity.start, directory_);
+  is_resumed_ = journal_.contents().description.has_value();
+  if (!is_resumed_) journal_.append(identity.description);
+  for (const NamedText& text : identity.texts) journal_.append(text);
+  ProvenanceRow row = identity.start;
+  row.event = is_resumed_ ? "resume" : "start";
+  journal_.append(row);
+  journal_.sync();
+  results_ = results_from(journal_.contents());
+  results_.description = identity.description;
+  results_.texts = identity.texts;
+  results_.provenance.push_back(row);
+  results_.program_version = row.program_version;
+  results_.git_revision = row.git_revision;
+  results_.input_sha256 = identity.input_sha256;
+  for (const Evaluation& evaluation : results_.evaluations) {
+    evaluations_[evaluation.point.id] = evaluation;
+  }
+  write_file_atomically(directory_ / kResolvedName, text_named(identity.texts, "resolved"));
+}
+
+void StudyRecord::discard_if_empty() {
+  if (!is_made_ || !evaluations_.empty()) return;
+  std::error_code ignored;  // what cannot be removed stays and is continued next time
+  std::filesystem::remove_all(directory_, ignored);
+}
+
+std::map<Cause, std::uint64_t> StudyRecord::failures() const {
+  std::map<Cause, std::uint64_t> counts;
+  for (const auto& [id, evaluation] : evaluations_) {
+    if (evaluation.status != Cause::ok) ++counts[evaluation.status];
+  }
+  return counts;
+}
+
+std::uint64_t StudyRecord::failure_count() const {
+  std::uint64_t sum = 0;
+  for (const auto& [cause, count] : failures()) sum += count;
+  return sum;
+}
+
+void StudyRecord::add_traces(TraceSet set) {
+  journal_.append(set);
+  auto& sets = set.evaluation < 0 ? results_.references : results_.traces;
+  const auto found = std::ranges::find(sets, set.name, &TraceSet::name);
+  if (found == sets.end()) {
+    sets.push_back(std::move(set));
+  } else {
+    *found = std::move(set);
+  }
+}
+
+// Traces first: an evaluation that is in the journal has its traces there.
+void StudyRecord::add(Evaluation evaluation, const std::vector<CaseTraces>& traces) {
+  const std::string base = fmt::format("evaluation_{}", evaluation.point.id);
+  for (const CaseTraces& set : traces) {
+    add_traces(to_trace_set(base, static_cast<std::int64_t>(evaluation.point.id), set));
+  }
+  journal_.append(evaluation);
+  evaluations_[evaluation.point.id] = std::move(evaluation);
+}
+
+void StudyRecord::add_references(const std::vector<CaseTraces>& references) {
+  if (!results_.references.empty()) return;
+  for (const CaseTraces& set : references) add_traces(to_trace_set("reference", -1, set));
+}
+
+void StudyRecord::add_reference(StoredReference reference) {
+  journal_.append(reference);
+  journal_.sync();
+  references_.push_back(std::move(reference));
+}
+
+const StoredReference* StudyRecord::reference(const std::string& name) const {
+  for (const auto* all : {&references_, &journal_.contents().references}) {
+    const auto found = std::ranges::find(*all, name, &StoredReference::name);
+    if (found != all->end()) return &*found;
+  }
+  return nullptr;
+}
+
+void StudyRecord::set_tuning(const std::string& name, const std::string& json, DataGroup tables) {
+  journal_.append(NamedText{"tuning/" + name, json});
+  tables.name = name;
+  tables.attributes.push_back({"certificate", json});
+  results_.tunings = {std::move(tables)};
+}
+
+std::string StudyRecord::write(RunStatus status) {
+  journal_.sync();
+  results_.status = status;
+  results_.evaluations.clear();
+  for (const auto& [id, evaluation] : evaluations_) results_.evaluations.push_back(evaluation);
+  std::ranges::stable_sort(results_.traces, {}, &TraceSet::evaluation);
+  return write_results(results_path(), results_);
+}
+
+void StudyRecord::write_if_due() {
+  const auto begin = Clock::now();
+  if (begin < next_write_) return;
+  write(RunStatus::running);
+  const auto end = Clock::now();
+  next_write_ = end + std::max<Clock::duration>(kFirstWrite, kWriteShare * (end - begin));
+}
+
+std::filesystem::path StudyRecord::results_path() const {
+  return directory_ / kResultsName;
+}
+
+}  // namespace linkstudy
