@@ -24,6 +24,7 @@ struct Stage {
   BasicMotion motion;
   int q;  // first position index; a ball has 4 (w x y z)
   int v;  // first velocity index; a ball has 3 (angular velocity in the joint's child frame)
+  bool operator==(const Stage&) const = default;
 };
 
 // What one velocity (degree of freedom) does to its body.
@@ -33,6 +34,7 @@ struct Velocity {
   int body;
   VelocityKind kind;
   int stage;  // for the pitch of a screw
+  bool operator==(const Velocity&) const = default;
 };
 
 // How much of a constant vector or rotation is not trivial: what the step loop may skip.
@@ -46,6 +48,7 @@ enum class InertiaShape : std::uint8_t { isotropic, about_x, about_y, about_z, g
 struct QuarterTurn {
   std::array<std::int8_t, 3> axis{0, 1, 2};
   std::array<std::int8_t, 3> sign{1, 1, 1};
+  bool operator==(const QuarterTurn&) const = default;
 };
 
 struct Body {
@@ -62,6 +65,7 @@ struct Body {
   bool shifted = true;   // the internal origin is not the parent's
   bool rotates = true;   // angular velocity may differ from zero
   bool gyrates = true;   // angular acceleration for qdd = 0 may differ from zero
+  bool operator==(const Body&) const = default;
 };
 
 // A scalar direction of a closure: its displacement d, rate, and the wrench that works on it.
@@ -93,6 +97,7 @@ struct Row {
   int other = 0;    // b
   double sign = 1;  // of a rotation
   int direction;    // Direction that the row stands for (three_springs: number of the spring)
+  bool operator==(const Row&) const = default;
 };
 
 struct ClosureStructure {
@@ -107,11 +112,13 @@ struct ClosureStructure {
   bool point_rows = false;                     // rows start with the ground axes x y z
   VectorShape point_1 = VectorShape::general;  // closure points in their bodies
   VectorShape point_2 = VectorShape::general;
+  bool operator==(const ClosureStructure&) const = default;
 };
 
 // Spring and damper on one coordinate of a tree joint.
 struct JointSpring {
   int q, v;
+  bool operator==(const JointSpring&) const = default;
 };
 
 // Clearance of a revolute closure: its contacts, and which end is the bearing.
@@ -123,6 +130,7 @@ struct ClearanceStructure {
   ContactPoints points = ContactPoints::one;
   FreeBristle free_bristle = FreeBristle::reset;
   int contact_begin, contact_end;  // planar 1, spatial 2
+  bool operator==(const ClearanceStructure&) const = default;
 };
 
 // One place where a journal can touch its bearing.
@@ -130,6 +138,7 @@ struct ContactStructure {
   int clearance;
   double side;  // of the bearing's length, from its middle: 0, -1/2, 1/2
   int z = -1;   // bristle, or -1: no friction
+  bool operator==(const ContactStructure&) const = default;
 };
 
 // Friction in a tree joint: velocities it brakes (or -1), and its first bristle.
@@ -137,6 +146,7 @@ struct JointFrictionStructure {
   int body;
   int turn = -1, slide = -1;
   int z;
+  bool operator==(const JointFrictionStructure&) const = default;
 };
 
 struct LoadStructure {
@@ -147,9 +157,11 @@ struct LoadStructure {
   CourseShape course = CourseShape::constant;
   ResistanceShape law = ResistanceShape::linear;
   int table_begin = 0, table_end = 0;  // segments of a table course
+  bool operator==(const LoadStructure&) const = default;
 };
 
-struct Mechanism {
+// What decides the step loop: cases that agree in it may share one.
+struct MechanismStructure {
   int nq = 0;
   int nv = 0;
   std::vector<Body> bodies;          // (nb), [0] ground
@@ -170,6 +182,14 @@ struct Mechanism {
   int table_segments = 0;
   bool projects = false;  // some cut closure asks for coordinate projection
 
+  bool operator==(const MechanismStructure&) const = default;
+
+  int body_count() const { return static_cast<int>(bodies.size()); }
+  int cut_row_count() const { return static_cast<int>(cut_rows.size()); }
+  int sde_row_count() const { return static_cast<int>(sde_rows.size()); }
+};
+
+struct Mechanism : MechanismStructure {
   // Of what is only looked at: chosen points. The step loop does not know them.
   std::vector<int> point_bodies;
 
@@ -178,13 +198,11 @@ struct Mechanism {
   std::vector<std::string> joint_names;    // by body; [0] empty
   std::vector<std::string> closure_names;  // by closure
   std::vector<std::string> point_names;    // by chosen point
-
-  int body_count() const { return static_cast<int>(bodies.size()); }
-  int cut_row_count() const { return static_cast<int>(cut_rows.size()); }
-  int sde_row_count() const { return static_cast<int>(sde_rows.size()); }
 };
 
 // True if cases of a and b may share a step loop (names and chosen points aside).
-bool same_structure(const Mechanism& a, const Mechanism& b);
+inline bool same_structure(const MechanismStructure& a, const MechanismStructure& b) {
+  return a == b;
+}
 
 }  // namespace linkstudy
