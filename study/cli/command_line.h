@@ -29,10 +29,14 @@ struct CommandLine : SessionOptions, CourseRequest {
   bool completion = false;
   std::optional<std::string> man;
   bool traces = false;
+  bool list = false;
+  std::optional<std::string> table;
+  std::optional<std::string> columns;  // a,b
+  std::optional<std::string> rows;     // report/choose_table.h
   bool slurm = false;
   std::optional<std::string> csv;
   std::optional<std::string> signals;  // a,b
-  std::string format = "csv";
+  std::optional<std::string> format;
   std::optional<std::string> h5;
 };
 

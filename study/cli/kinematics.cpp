@@ -5,6 +5,7 @@
 #include "study/kinematics/report.h"
 #include "study/kinematics/table.h"
 #include "study/report/console.h"
+#include "study/report/write_table.h"
 #include "study/session/exit_code.h"
 #include "study/store/group_file.h"
 

@@ -7,7 +7,8 @@
 #include <cmath>
 
 #include "core/topology/nearest_name.h"
-#include "study/report/table.h"
+#include "study/report/results_tables.h"
+#include "study/report/write_table.h"
 #include "study/schedule/progress.h"
 
 namespace linkstudy {
@@ -45,6 +46,18 @@ auto fill(std::vector<std::string> Record::*member) {
 
 using Rows = std::vector<OptionRow>;
 
+std::vector<std::string> table_names() {
+  std::vector<std::string> names;
+  for (const ResultsTable& table : results_tables()) names.emplace_back(table.name);
+  return names;
+}
+
+std::vector<std::string> format_names() {
+  std::vector<std::string> names;
+  for (const TableFormat& format : table_formats()) names.emplace_back(format.name);
+  return names;
+}
+
 // Of what goes in and out.
 Rows file_options() {
   using Line = CommandLine;
@@ -75,14 +88,24 @@ Rows file_options() {
        "channels of --csv, or groups: closure.S.force, joint.A, energy; default: all; linkstudy "
        "describe channels MODEL",
        fill(&Line::signals)},
-      {"traces", "", "time histories, and their differences from the reference",
+      {"list", "", "the tables there are, with their rows and what they hold",
+       fill_switch(&Line::list)},
+      {"table", "NAME", "which of them; default: summary", fill(&Line::table), {}, table_names()},
+      {"columns", "A,B", "columns in this order; default: all that the table shows",
+       fill(&Line::columns)},
+      {"rows", "EXPR",
+       "rows where comparisons hold: \"closure.S.sde.stiffness >= 1e5 N/m and status = ok\" (= != "
+       "< "
+       "<= > >=)",
+       fill(&Line::rows)},
+      {"traces", "", "the table traces: time histories, and their differences from the reference",
        fill_switch(&Line::traces)},
       {"format",
        "FORM",
-       "text, csv, md, json or latex",
+       "text, csv, md, latex or json; default: text on a terminal, csv in files and pipes",
        fill(&Line::format),
        {},
-       {"text", "csv", "md", "json", "latex"}},
+       format_names()},
   };
 }
 
@@ -194,10 +217,13 @@ void check_values(const CommandLine& line) {
   require(!line.batch || *line.batch > 0, "--batch must be positive");
   check_word("progress", line, line.progress);
   check_word("log-level", line, line.log_level);
-  check_word("format", line, line.format);
+  if (line.format) check_word("format", line, *line.format);
   if (line.man) check_word("man", line, *line.man);
   if (line.on_failure) check_word("on-failure", line, *line.on_failure);
   require(!(line.json && line.csv == "-"), "--json and --csv - both want standard output");
+  const bool chooses = line.traces || line.table || line.columns || line.rows;
+  require(!(line.list && chooses), "--list lists all tables; leave out what chooses one");
+  require(!(line.traces && line.table), "--traces is --table traces; leave out one of them");
   require(!line.signals || line.csv, "--signals chooses what --csv writes; add --csv FILE");
 }
 

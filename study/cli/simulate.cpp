@@ -9,6 +9,7 @@
 #include "study/report/console.h"
 #include "study/report/model_report.h"
 #include "study/report/series_table.h"
+#include "study/report/write_table.h"
 #include "study/session/exit_code.h"
 #include "study/session/single_run.h"
 

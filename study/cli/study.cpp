@@ -3,7 +3,8 @@
 #include "study/cli/input.h"
 #include "study/cli/verb_table.h"
 #include "study/report/console.h"
-#include "study/report/results_table.h"
+#include "study/report/summary_table.h"
+#include "study/report/write_table.h"
 #include "study/session/end.h"
 #include "study/session/exit_code.h"
 #include "study/session/launch.h"
@@ -11,19 +12,6 @@
 
 namespace linkstudy {
 namespace {
-
-// What a reader wants to see first; export has everything.
-ResultsTableOptions choose_columns(const StudySession& session) {
-  const Evaluator& evaluator = session.evaluator();
-  ResultsTableOptions options;
-  options.columns = {"evaluation"};
-  for (const Parameter& p : evaluator.parameters()) options.columns.push_back(p.path);
-  for (const std::size_t i : evaluator.headline_responses()) {
-    options.columns.push_back(evaluator.responses()[i].name);
-  }
-  options.columns.emplace_back("status");
-  return options;
-}
 
 int finish(bool json, StudySession& session, StudyEnd end) {
   StudyRecord& record = session.record();
@@ -41,7 +29,7 @@ int finish(bool json, StudySession& session, StudyEnd end) {
     return end.code;
   }
   if (end.code != exit_resumable) {
-    print_out(text_of(results_table(record.results(), choose_columns(session))));
+    print_out(text_of(summary_table(record.results()), output_width()));
     print_out(fmt::format("results digest: {}\n", end.digest));
   }
   return end.code;

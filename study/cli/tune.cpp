@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "study/cli/input.h"
-#include "study/cli/tuning_group.h"
 #include "study/cli/verb_table.h"
 #include "study/report/console.h"
 #include "study/session/end.h"
@@ -11,6 +10,7 @@
 #include "study/session/launch.h"
 #include "study/session/tuning_run.h"
 #include "study/tune/tuning_setup.h"
+#include "study/tune/tuning_tables.h"
 #include "study/tune/write_tuning.h"
 
 namespace linkstudy {
@@ -34,7 +34,7 @@ int run(bool json, StudySession& session) {
     result = tuning::tune(make_tuning_problem(session.evaluator()), make_tuning_options(input),
                           [&](const auto& requests) { return run.evaluate(requests); });
     session.record().set_tuning(slug_of(input.name), tuning::write_json(*result, ""),
-                                make_tuning_group(*result));
+                                tuning::make_tables(*result));
   });
   if (result) return print_result(json, *result, end.digest);
   // Interrupted, or with too many failures: no answer yet.

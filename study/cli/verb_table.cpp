@@ -83,11 +83,11 @@ const std::vector<VerbRow>& verb_rows() {
        run_options({"batch"}), run_tune, true},
       {"status", "DIR", 1, 1, "tells how far a study is, running or dead", {"json"}, run_status},
       {"export",
-       "DIR",
+       "DIR|FILE.h5",
        1,
        1,
-       "prints the results as a table",
-       {"output,o", "format", "traces"},
+       "prints tables of the results of a directory, or of its results.h5",
+       {"list", "table", "columns", "rows", "traces", "format", "output,o"},
        run_export},
   };
   return rows;

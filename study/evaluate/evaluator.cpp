@@ -9,6 +9,7 @@
 
 #include "study/config/precedence.h"
 #include "study/evaluate/check_times.h"
+#include "study/evaluate/derived_damping.h"
 #include "study/metrics/invalid_point.h"
 
 namespace linkstudy {
@@ -34,14 +35,14 @@ StudySignals require_signals(const StudyInput& input, const Mechanism& mechanism
   return signals;
 }
 
-void fail(CaseResult& result, Cause cause, const std::string& message) {
+void fail(Evaluation& result, Cause cause, const std::string& message) {
   result.status = cause;
   result.message = message;
 }
 
 // A step of one evaluation; what it throws ends that one and no other.
 template <class Step>
-void guard(CaseResult& result, const Step& step) {
+void guard(Evaluation& result, const Step& step) {
   try {
     step();
   } catch (const InvalidPoint& error) {
@@ -54,7 +55,7 @@ void guard(CaseResult& result, const Step& step) {
   }
 }
 
-void name_load_case(const LoadCaseInput& load_case, CaseResult& result) {
+void name_load_case(const LoadCaseInput& load_case, Evaluation& result) {
   if (result.status == Cause::ok || load_case.name.empty()) return;
   result.message = fmt::format("load case '{}': {}", load_case.name, result.message);
 }
@@ -131,18 +132,6 @@ Evaluator::Evaluator(StudyInput input, std::vector<Parameter> parameters, StudyS
       judged_(list_judged_errors(input_, signals)),
       references_(load_cases_.size()) {}
 
-std::vector<std::size_t> Evaluator::headline_responses() const {
-  std::vector<std::size_t> indices;
-  for (std::size_t i = 0; i < responses_.size(); ++i) {
-    const std::size_t within = i % layout_.width;
-    const bool is_wanted = within < layout_.always ||
-                           within == layout_.index_of(RunNumber::gap_max) ||
-                           within == layout_.index_of(RunNumber::step_limit);
-    if (is_wanted) indices.push_back(i);
-  }
-  return indices;
-}
-
 double Evaluator::worst(RunNumber number, const std::vector<double>& responses) const {
   double worst = kNan;
   for (std::size_t i = 0; i < load_cases_.size(); ++i) {
@@ -197,25 +186,24 @@ std::vector<Override> Evaluator::overrides_of(const LoadCaseInput& load_case,
 }
 
 struct Evaluator::Attempt {
-  const std::vector<Value>* values;
-  CaseResult result{};
+  explicit Attempt(const Point& point) { result.point = point; }
+  Evaluation result;
   double spent_s = 0.0;
   bool is_running() const { return result.status == Cause::ok; }
 };
 
-std::vector<CaseResult> Evaluator::evaluate(std::span<const std::vector<Value>> points) {
-  std::vector<Attempt> attempts;
-  for (const std::vector<Value>& point : points) attempts.push_back({&point});
+std::vector<Evaluation> Evaluator::evaluate(std::span<const Point> points) {
+  std::vector<Attempt> attempts(points.begin(), points.end());
   attempt(attempts);
   for (Attempt& one : attempts) {
     for (std::uint32_t i = 2; i <= kAttempts && one.result.status == Cause::exception; ++i) {
       if (cancelled_) break;
-      one = {one.values};
+      one = Attempt(one.result.point);
       attempt({&one, 1});
       one.result.attempts = i;
     }
   }
-  std::vector<CaseResult> results;
+  std::vector<Evaluation> results;
   for (Attempt& one : attempts) {
     one.result.responses.resize(responses_.size(), kNan);
     results.push_back(std::move(one.result));
@@ -266,13 +254,16 @@ bool Evaluator::end_if_late(Attempt& attempt) const {
 std::unique_ptr<PreparedCase> Evaluator::prepare_case(std::size_t load_case, std::size_t point,
                                                       Attempt& attempt, const RunMetrics* like) {
   const ReferenceRecord* record = reference(load_case);
-  const ModelInput input =
-      require_model(*input_.model, overrides_of(load_cases_[load_case], *attempt.values));
+  const ModelInput input = require_model(
+      *input_.model, overrides_of(load_cases_[load_case], attempt.result.point.values));
   Preparation preparation = prepare(input.linkage, input.options);
   if (preparation.cause != Cause::ok) {
     fail(attempt.result, preparation.cause, preparation.message);
     return nullptr;
   }
+  const std::string& name = load_cases_[load_case].name;
+  add_damping(input.linkage, preparation.model, name.empty() ? "" : name + "_",
+              attempt.result.derived);
   const StudySignals signals = require_signals(input_, preparation.model.mechanism);
   RunMetrics metrics(input_, signals, input.options, record, like);
   const KnownLimit limit = find_known_limit(preparation, record);
@@ -302,7 +293,7 @@ void Evaluator::run_group(std::size_t load_case, const CaseGroup& group,
 }
 
 void Evaluator::store(std::size_t load_case, const PreparedCase& item, Attempt& attempt) {
-  CaseResult& result = attempt.result;
+  Evaluation& result = attempt.result;
   // Nobody's result, and somebody waits.
   if (item.outcome.cause == Cause::cancelled) {
     fail(result, Cause::cancelled, item.outcome.message);

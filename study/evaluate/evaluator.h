@@ -16,9 +16,9 @@
 #include <span>
 #include <vector>
 
-#include "study/evaluate/case_result.h"
 #include "study/evaluate/prepared_case.h"
 #include "study/evaluate/reference_run.h"
+#include "study/record/evaluation.h"
 
 namespace linkstudy {
 
@@ -33,9 +33,6 @@ class Evaluator {
   const std::vector<Parameter>& parameters() const { return parameters_; }
   const std::vector<Response>& responses() const { return responses_; }
   const std::vector<JudgedError>& judged_errors() const { return judged_; }
-  // Indices of the responses that a table on a screen shows: errors by both norms, [[response]],
-  // gap, step limit.
-  std::vector<std::size_t> headline_responses() const;
   // Largest (or, of step_limit, smallest) value of a run number over the load cases.
   double worst(RunNumber number, const std::vector<double>& responses) const;
 
@@ -56,8 +53,9 @@ class Evaluator {
   // counts in full for each.
   void set_timeout(double seconds) { timeout_s_ = seconds; }
 
-  // One result for each point. Any thread, one at a time.
-  std::vector<CaseResult> evaluate(std::span<const std::vector<Value>> points);
+  // Where, for how long, and on which rank they ran is for the caller to say. Any thread, one at a
+  // time.
+  std::vector<Evaluation> evaluate(std::span<const Point> points);
 
   // Any thread; for good.
   void cancel() { cancelled_.store(true); }

@@ -6,14 +6,6 @@
 namespace linkstudy {
 namespace {
 
-bool same_channel(const Channel& a, const Channel& b) {
-  return a.quantity == b.quantity && a.index == b.index && a.component == b.component;
-}
-
-bool same_channels(const std::vector<Channel>& a, const std::vector<Channel>& b) {
-  return std::ranges::equal(a, b, same_channel);
-}
-
 bool same_sampling(const Sampling& a, const Sampling& b) {
   return a.begin == b.begin && a.end == b.end && a.stride == b.stride;
 }

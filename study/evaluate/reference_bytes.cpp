@@ -1,92 +1,47 @@
 #include "study/evaluate/reference_bytes.h"
 
-#include <stdexcept>
+#include "study/record/bytes.h"
 
-#include "study/record/evaluation_bytes.h"
-
+// The members of the engine's records that a reference run consists of.
 namespace linkstudy {
-namespace {
 
-void put_channel(ByteWriter& out, const Channel& channel) {
-  out.put_text(channel.name);
-  out.put_text(channel.unit);
-  out.put_u32(static_cast<std::uint32_t>(channel.quantity));
-  for (const int number : {channel.index, channel.component, channel.body}) out.put_i64(number);
+void visit_members(auto& archive, Like<Channel> auto& channel) {
+  archive(channel.name, channel.unit);
+  archive.template as<std::uint32_t>(channel.quantity);
+  archive.template as<std::int64_t>(channel.index);
+  archive.template as<std::int64_t>(channel.component);
+  archive.template as<std::int64_t>(channel.body);
 }
 
-Channel get_channel(ByteReader& in) {
-  Channel channel;
-  channel.name = in.get_text();
-  channel.unit = in.get_text();
-  channel.quantity = static_cast<Quantity>(in.get_u32());
-  for (int* number : {&channel.index, &channel.component, &channel.body}) {
-    *number = static_cast<int>(in.get_i64());
-  }
-  return channel;
+void visit_members(auto& archive, Like<Sampling> auto& sampling) {
+  archive.template as<std::int64_t>(sampling.begin);
+  archive.template as<std::int64_t>(sampling.end);
+  archive.template as<std::int64_t>(sampling.stride);
 }
 
-void put_series(ByteWriter& out, const Series& series) {
-  out.put_u64(series.channels.size());
-  for (const Channel& channel : series.channels) put_channel(out, channel);
-  for (const long step : {series.sampling.begin, series.sampling.end, series.sampling.stride}) {
-    out.put_i64(step);
-  }
-  put_numbers(out, series.values);
+void visit_members(auto& archive, Like<Series> auto& series) {
+  archive(series.channels, series.sampling, series.values);
 }
 
-Series get_series(ByteReader& in) {
-  Series series;
-  series.channels.resize(in.get_count(1));
-  for (Channel& channel : series.channels) channel = get_channel(in);
-  for (long* step : {&series.sampling.begin, &series.sampling.end, &series.sampling.stride}) {
-    *step = static_cast<long>(in.get_i64());
-  }
-  series.values = get_numbers(in);
-  return series;
+void visit_members(auto& archive, Like<State<double>> auto& state) {
+  archive(state.t, state.supplied, state.dissipated, state.q, state.v, state.z);
 }
 
-void put_state(ByteWriter& out, const State<double>& state) {
-  for (const double number : {state.t, state.supplied, state.dissipated}) out.put_f64(number);
-  for (const auto* numbers : {&state.q, &state.v, &state.z}) put_numbers(out, *numbers);
+void visit_members(auto& archive, Like<StepGrid> auto& grid) {
+  archive.template as<std::int64_t>(grid.count);
+  archive(grid.h);
 }
 
-State<double> get_state(ByteReader& in) {
-  State<double> state;
-  for (double* number : {&state.t, &state.supplied, &state.dissipated}) *number = in.get_f64();
-  for (auto* numbers : {&state.q, &state.v, &state.z}) *numbers = get_numbers(in);
-  return state;
+void visit_members(auto& archive, Like<ReferenceRecord> auto& record) {
+  archive(record.grid, record.match, record.traces, record.joints, record.poses);
 }
-
-}  // namespace
 
 std::string encode_reference(const ReferenceRecord& record) {
-  ByteWriter out;
-  out.put_i64(record.grid.count);
-  out.put_f64(record.grid.h);
-  out.put_u64(record.match.size());
-  for (const Series& series : record.match) put_series(out, series);
-  put_traces(out, record.traces);
-  out.put_u64(record.joints.size());
-  for (const std::string& joint : record.joints) out.put_text(joint);
-  out.put_u64(record.poses.size());
-  for (const State<double>& pose : record.poses) put_state(out, pose);
-  return out.bytes();
+  return to_bytes(record);
 }
 
 ReferenceRecord decode_reference(std::string_view bytes) {
-  ByteReader in(bytes);
-  ReferenceRecord record;
-  record.grid.count = static_cast<long>(in.get_i64());
-  record.grid.h = in.get_f64();
-  record.match.resize(in.get_count(1));
-  for (Series& series : record.match) series = get_series(in);
-  record.traces = get_traces(in);
-  record.joints.resize(in.get_count(1));
-  for (std::string& joint : record.joints) joint = in.get_text();
-  record.poses.resize(in.get_count(1));
-  for (State<double>& pose : record.poses) pose = get_state(in);
-  if (!in.at_end()) throw std::out_of_range("a reference run with something behind it");
-  return record;
+  return from_bytes<ReferenceRecord>(bytes);
 }
 
 }  // namespace linkstudy

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <limits>
-
 #include "study/config/toml_writer.h"
 #include "study/kinematics/report.h"
 #include "study/kinematics/table.h"
@@ -12,37 +10,30 @@
 namespace linkstudy {
 namespace {
 
-// A table of numbers over its first column.
-DataGroup group_of(const std::string& name, const Table& table) {
-  DataGroup group;
-  group.name = name;
-  group.compressed = true;
-  for (std::size_t c = 0; c < table.columns.size(); ++c) {
-    std::vector<double> values;
-    for (const std::vector<Cell>& row : table.rows) {
-      const double* number = std::get_if<double>(&row[c]);
-      values.push_back(number ? *number : std::numeric_limits<double>::quiet_NaN());
-    }
-    const TableColumn& column = table.columns[c];
-    group.columns.push_back(
-        {column.name, column.unit, column.name, c == 0 ? "axis" : "channel", values, {}});
+// A table of numbers over its first column, as a group.
+Table group_of(const std::string& name, Table table) {
+  table.name = name;
+  table.compressed = true;
+  for (Column& column : table.columns) {
+    column.meaning = column.name;
+    column.role = &column == &table.columns.front() ? "axis" : "channel";
   }
-  return group;
+  return table;
 }
 
 // A column with one value a row.
 template <class Type, class Rows, class Field>
-void add_column(DataGroup& group, const Rows& rows, const std::string& name, const char* unit,
+void add_column(Table& group, const Rows& rows, const std::string& name, const char* unit,
                 const char* meaning, Field field) {
   std::vector<Type> values;
   for (const auto& row : rows) values.push_back(field(row));
-  group.columns.push_back({name, unit, meaning, "response", std::move(values), {}});
+  group.columns.push_back({name, unit, meaning, "response", std::move(values)});
 }
 
-DataGroup singular_group(const KinematicsResult& result) {
+Table singular_group(const KinematicsResult& result) {
   const std::vector<SingularPosition>& rows = result.cycle.singular;
   using Row = SingularPosition;
-  DataGroup group;
+  Table group;
   group.name = "singular";
   std::vector<std::uint8_t> kinds;
   for (const Row& p : rows) kinds.push_back(static_cast<std::uint8_t>(p.kind));
@@ -70,9 +61,9 @@ DataGroup singular_group(const KinematicsResult& result) {
   return group;
 }
 
-DataGroup loop_group(const KinematicsResult& result) {
+Table loop_group(const KinematicsResult& result) {
   using Row = LoopResult;
-  DataGroup group;
+  Table group;
   group.name = "loops";
   const auto& rows = result.loops;
   add_column<std::string>(group, rows, "cut", "", "closure where the loop is cut",
@@ -92,10 +83,10 @@ DataGroup loop_group(const KinematicsResult& result) {
 
 }  // namespace
 
-DataGroup kinematics_group(const ModelInput& input, const Model& closed,
-                           const KinematicsResult& result, const std::string& command) {
+Table kinematics_group(const ModelInput& input, const Model& closed, const KinematicsResult& result,
+                       const std::string& command) {
   const MobilityReport& r = result.mobility;
-  DataGroup root;
+  Table root;
   root.attributes = {{"format", "linkstudy kinematics"},
                      {"format_version", std::int64_t{1}},
                      {"model", input.name},
@@ -108,11 +99,11 @@ DataGroup kinematics_group(const ModelInput& input, const Model& closed,
                      {"command", command},
                      {"input_resolved", write_toml(input.resolved)}};
   if (result.driven) {
-    root.groups.push_back(group_of("kinematics", kinematics_table(closed, result)));
-    root.groups.push_back(group_of("poses", pose_table(input.rigid, closed, result)));
-    root.groups.push_back(singular_group(result));
+    root.parts.push_back(group_of("kinematics", kinematics_table(closed, result)));
+    root.parts.push_back(group_of("poses", pose_table(input.rigid, closed, result)));
+    root.parts.push_back(singular_group(result));
   }
-  if (!result.loops.empty()) root.groups.push_back(loop_group(result));
+  if (!result.loops.empty()) root.parts.push_back(loop_group(result));
   return root;
 }
 

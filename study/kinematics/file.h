@@ -8,11 +8,11 @@
 
 #include "study/config/model_reader.h"
 #include "study/kinematics/result.h"
-#include "study/store/data_group.h"
+#include "study/record/table.h"
 
 namespace linkstudy {
 
-DataGroup kinematics_group(const ModelInput& input, const Model& closed,
-                           const KinematicsResult& result, const std::string& command);
+Table kinematics_group(const ModelInput& input, const Model& closed, const KinematicsResult& result,
+                       const std::string& command);
 
 }  // namespace linkstudy

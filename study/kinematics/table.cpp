@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <limits>
+
 #include "core/kinematics/link_poses.h"
 #include "core/kinematics/point_motion.h"
 #include "core/simulation/channels.h"
@@ -29,13 +31,13 @@ class TableBuilder {
   Table build() {
     add_columns();
     for (const DrivenPose& pose : result_.cycle.poses) {
-      std::vector<Cell> cells = {pose.time};
+      std::vector<double> cells = {pose.time};
       add_joints(pose, cells);
       add_closures(pose, cells);
       add_points(pose, cells);
-      cells.emplace_back(pose.quality);
-      cells.emplace_back(pose.residual);
-      table_.rows.push_back(std::move(cells));
+      cells.push_back(pose.quality);
+      cells.push_back(pose.residual);
+      append_row(table_, cells);
     }
     return std::move(table_);
   }
@@ -79,22 +81,22 @@ class TableBuilder {
     }
   }
 
-  static Cell rate(const DrivenPose& pose, double value) {
-    return pose.is_singular ? Cell() : Cell(value);
+  static double rate(const DrivenPose& pose, double value) {
+    return pose.is_singular ? std::numeric_limits<double>::quiet_NaN() : value;
   }
 
-  void add_joints(const DrivenPose& pose, std::vector<Cell>& cells) const {
+  void add_joints(const DrivenPose& pose, std::vector<double>& cells) const {
     for (const Channel& channel : channels_) {
       const auto i = static_cast<std::size_t>(channel.index);
       if (channel.quantity == Quantity::q) {
-        cells.emplace_back(pose.s.q[i]);
+        cells.push_back(pose.s.q[i]);
       } else {
         cells.push_back(rate(pose, channel.quantity == Quantity::v ? pose.s.v[i] : pose.a[i]));
       }
     }
   }
 
-  void add_closures(const DrivenPose& pose, std::vector<Cell>& cells) {
+  void add_closures(const DrivenPose& pose, std::vector<double>& cells) {
     std::vector<CutJointMotion> motions = cut_joint_motions(
         mechanism(), closed_.parameters, pose.s.q.data(), pose.s.v.data(), pose.a.data());
     before_.resize(motions.size());
@@ -102,18 +104,18 @@ class TableBuilder {
       VectorXd& q = motions[i].position;
       if (before_[i].size() > 0) continue_position(cut_joints_[i], before_[i], q);
       before_[i] = q;
-      for (const double x : q) cells.emplace_back(x);
+      for (const double x : q) cells.push_back(x);
       for (const double x : motions[i].velocity) cells.push_back(rate(pose, x));
       for (const double x : motions[i].acceleration) cells.push_back(rate(pose, x));
     }
   }
 
-  void add_points(const DrivenPose& pose, std::vector<Cell>& cells) const {
+  void add_points(const DrivenPose& pose, std::vector<double>& cells) const {
     for (const PointMotion& point : point_motions(mechanism(), closed_.parameters, pose.s.q.data(),
                                                   pose.s.v.data(), pose.a.data())) {
       const auto add = [&](const Vec3<double>& a, bool is_rate) {
         for (const double x : {a.x, a.y, a.z}) {
-          cells.push_back(is_rate ? rate(pose, x) : Cell(x));
+          cells.push_back(is_rate ? rate(pose, x) : x);
         }
       };
       add(point.position, false);
@@ -150,14 +152,14 @@ Table pose_table(const Linkage& linkage, const Model& closed, const KinematicsRe
   std::vector<ShortenedDualQuaternion> before;
   for (const DrivenPose& pose : result.cycle.poses) {
     std::vector<ShortenedDualQuaternion> links = link_poses(linkage, closed, pose.s);
-    std::vector<Cell> cells = {pose.time};
+    std::vector<double> cells = {pose.time};
     for (std::size_t b = 1; b < links.size(); ++b) {
       if (!before.empty() && before[b].e.dot(links[b].e) < 0.0) links[b].e *= -1.0;
-      for (const double x : links[b].e) cells.emplace_back(x);
-      for (const double x : links[b].r) cells.emplace_back(x);
+      for (const double x : links[b].e) cells.push_back(x);
+      for (const double x : links[b].r) cells.push_back(x);
     }
     before = std::move(links);
-    table.rows.push_back(std::move(cells));
+    append_row(table, cells);
   }
   return table;
 }

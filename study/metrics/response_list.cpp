@@ -30,6 +30,9 @@ constexpr std::array<RunNumberText, kRunNumbers> kTexts = {{
     {"least_contact_steps", "", "steps in the shortest contact that ended, 0: none; rk4 needs 20"},
 }};
 
+constexpr std::string_view kMaxMeaning = "largest relative error of ";
+constexpr std::string_view kRmsMeaning = "root-mean-square relative error of ";
+
 std::string to_name(std::string text) {
   std::ranges::replace(text, '.', '_');
   return text;
@@ -63,19 +66,19 @@ class Lister {
   void add_case(const std::string& load_case) {
     prefix_ = load_case.empty() ? "" : load_case + "_";
     for (std::size_t i = 0; i < input_.match.size(); ++i) {
-      add_errors("max", "largest relative error of", i);
-      add_errors("rms", "root-mean-square relative error of", i);
+      add_errors("max", kMaxMeaning, i);
+      add_errors("rms", kRmsMeaning, i);
     }
     for (std::size_t i = 0; i < input_.response.size(); ++i) add_response(i);
     owner_ = kOurs;
     for (const RunNumberText& text : kTexts) add(text.name, text.unit, text.meaning);
   }
 
-  void add_errors(const char* norm, const char* meaning, std::size_t i) {
+  void add_errors(const char* norm, std::string_view meaning, std::size_t i) {
     owner_ = kOurs;
     for (const Channel& channel : signals_.match[i]) {
       add(fmt::format("error_{}_{}", norm, to_name(channel.name)), "1",
-          fmt::format("{} {}", meaning, channel.name));
+          fmt::format("{}{}", meaning, channel.name));
     }
   }
 
@@ -119,7 +122,87 @@ class Lister {
   std::vector<NameClash> clashes_;
 };
 
+// The name of a run number behind that of the load case, empty where it is none: a [[response]] may
+// end in the same words, with another meaning.
+std::string_view run_number_of(const Response& response) {
+  for (const RunNumberText& text : kTexts) {
+    const bool is_it = response.name.ends_with(text.name) && response.long_name == text.meaning;
+    if (is_it) return text.name;
+  }
+  return {};
+}
+
+// Reads one load case after the other.
+class Splitter {
+ public:
+  explicit Splitter(const std::vector<Response>& responses) : responses_(responses) {}
+
+  std::vector<StoredCase> run() {
+    while (at_ < responses_.size()) {
+      StoredCase one;
+      while (meaning_starts(kMaxMeaning)) one.matches.push_back(read_errors());
+      while (at_ < responses_.size() && run_number().empty()) one.responses.push_back(at_++);
+      one.always = at_;
+      if (at_ < responses_.size()) one.load_case = load_case();
+      do {
+        ++at_;
+      } while (at_ < responses_.size() && !run_number().empty() &&
+               run_number() != kTexts.front().name);
+      cases_.push_back(std::move(one));
+    }
+    return std::move(cases_);
+  }
+
+ private:
+  std::string_view run_number() const { return run_number_of(responses_[at_]); }
+
+  bool meaning_starts(std::string_view meaning) const {
+    return at_ < responses_.size() && responses_[at_].long_name.starts_with(meaning);
+  }
+
+  // "fast" of "fast_gap_max".
+  std::string load_case() const {
+    const std::string& name = responses_[at_].name;
+    const std::size_t own = run_number().size();
+    return name.size() == own ? "" : name.substr(0, name.size() - own - 1);
+  }
+
+  StoredErrors read_errors() {
+    StoredErrors errors;
+    errors.max = at_;
+    for (; meaning_starts(kMaxMeaning); ++at_) {
+      errors.channels.push_back(responses_[at_].long_name.substr(kMaxMeaning.size()));
+    }
+    errors.rms = at_;
+    while (meaning_starts(kRmsMeaning)) ++at_;
+    errors.name = group_of_names(errors);
+    return errors;
+  }
+
+  // "closure_S_force", and "closure_S_force_2" of a second match of that signal.
+  std::string group_of_names(const StoredErrors& errors) const {
+    const std::string& first = responses_[errors.max].name;
+    const std::string channel = to_name(errors.channels.front());
+    const std::string group = to_name(group_of(errors.channels));
+    const std::size_t found = first.rfind(channel);
+    return found == std::string::npos ? group : group + first.substr(found + channel.size());
+  }
+
+  const std::vector<Response>& responses_;
+  std::size_t at_ = 0;
+  std::vector<StoredCase> cases_;
+};
+
 }  // namespace
+
+std::vector<StoredCase> split_responses(const std::vector<Response>& responses) {
+  return Splitter(responses).run();
+}
+
+std::string group_of(const std::vector<std::string>& channels) {
+  if (channels.size() == 1) return channels.front();
+  return channels.front().substr(0, channels.front().rfind('.'));
+}
 
 std::vector<Response> list_responses(const StudyInput& input, const StudySignals& signals) {
   return Lister(input, signals).run();

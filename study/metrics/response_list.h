@@ -44,6 +44,24 @@ struct ResponseLayout {
 };
 ResponseLayout layout_of(const StudySignals& signals);
 
+// The list of responses, read back from its names and meanings alone: what tables of stored results
+// have to go by.
+struct StoredErrors {
+  std::string name;                   // "closure_S_force", as in the names of its errors
+  std::vector<std::string> channels;  // "closure.S.force.x"
+  std::size_t max = 0, rms = 0;       // where its errors of either norm begin in the list
+};
+struct StoredCase {
+  std::string load_case;  // empty without load cases
+  std::vector<StoredErrors> matches;
+  std::vector<std::size_t> responses;  // of [[response]]
+  std::size_t always = 0;              // first of the RunNumbers
+};
+std::vector<StoredCase> split_responses(const std::vector<Response>& responses);
+
+// The part that a list of channels has in common: "closure.S.force".
+std::string group_of(const std::vector<std::string>& channels);
+
 // One error that a tuner judges.
 struct JudgedError {
   std::string name;          // "closure.S.force.x", the load case in front where there are any

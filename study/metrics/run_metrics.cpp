@@ -77,12 +77,6 @@ std::shared_ptr<const RunMetrics::Compared> RunMetrics::compare(const StudyInput
 
 bool RunMetrics::compares_alike(const StudySignals& signals, const StepGrid& grid,
                                 const ReferenceRecord* reference) const {
-  const auto same_channel = [](const Channel& a, const Channel& b) {
-    return a.name == b.name && a.index == b.index && a.component == b.component;
-  };
-  const auto same_channels = [&](const auto& a, const auto& b) {
-    return std::ranges::equal(a, b, same_channel);
-  };
   const Compared& own = *compared_;
   return own.grid.count == grid.count && own.grid.h == grid.h && own.reference == reference &&
          own.zeros.empty() == signals.gaps.empty() &&

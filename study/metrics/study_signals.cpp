@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <tuple>
 
 #include "core/simulation/channel_kinds.h"
 #include "core/topology/nearest_name.h"
@@ -53,6 +54,17 @@ std::vector<std::vector<Channel>> find_gaps(const std::vector<Channel>& channels
 }
 
 }  // namespace
+
+bool same_channel(const Channel& a, const Channel& b) {
+  const auto key = [](const Channel& c) {
+    return std::tie(c.name, c.unit, c.quantity, c.index, c.component, c.body);
+  };
+  return key(a) == key(b);
+}
+
+bool same_channels(const std::vector<Channel>& a, const std::vector<Channel>& b) {
+  return std::ranges::equal(a, b, same_channel);
+}
 
 StudySignals find_case_signals(const StudyInput& input, const std::vector<Channel>& channels,
                                Diagnostics& diagnostics) {

@@ -15,6 +15,10 @@ struct StudySignals {
   std::vector<std::vector<Channel>> gaps;      // by closure: x y z
 };
 
+// Whether two runs show the same under these: names, units and what is looked up for them.
+bool same_channel(const Channel& a, const Channel& b);
+bool same_channels(const std::vector<Channel>& a, const std::vector<Channel>& b);
+
 // Signals as they stand, in the case's mechanism. What is not there is reported at its place.
 StudySignals find_case_signals(const StudyInput& input, const std::vector<Channel>& channels,
                                Diagnostics& diagnostics);

@@ -15,22 +15,21 @@ namespace linkstudy {
 namespace {
 
 // A tag opens every part of the stream, so that no two different contents share their bytes.
-enum Tag : std::uint8_t { kParameter = 'p', kResponse = 'r', kEvaluation = 'e' };
-enum ValueTag : std::uint8_t { kNumber = 'n', kWord = 'w' };
+constexpr std::uint8_t kParameter = 'p', kResponse = 'r', kEvaluation = 'e', kNumber = 'n',
+                       kWord = 'w';
 
 constexpr std::uint64_t kCanonicalNan = 0x7ff8000000000000u;
 
 void put_number(ByteWriter& out, double value) {
-  out.put_u64(std::isnan(value) ? kCanonicalNan : std::bit_cast<std::uint64_t>(value));
+  out(std::isnan(value) ? kCanonicalNan : std::bit_cast<std::uint64_t>(value));
 }
 
 void put_value(ByteWriter& out, const Value& value) {
   if (const double* number = std::get_if<double>(&value)) {
-    out.put_u8(kNumber);
+    out(kNumber);
     put_number(out, *number);
   } else {
-    out.put_u8(kWord);
-    out.put_text(std::get<std::string>(value));
+    out(kWord, std::get<std::string>(value));
   }
 }
 
@@ -49,22 +48,13 @@ void put_responses(ByteWriter& out, const Evaluation& evaluation, std::size_t co
 }
 
 void put_evaluation(ByteWriter& out, const Evaluation& evaluation, std::size_t response_count) {
-  out.put_u8(kEvaluation);
-  out.put_u64(evaluation.point.id);
-  out.put_u64(evaluation.point.values.size());
+  out(kEvaluation, evaluation.point.id, std::uint64_t{evaluation.point.values.size()});
   for (const Value& value : evaluation.point.values) {
     put_value(out, value);
   }
-  out.put_u8(static_cast<std::uint8_t>(evaluation.status));
+  out.as<std::uint8_t>(evaluation.status);
   put_responses(out, evaluation, response_count);
-  out.put_i64(evaluation.parent);
-  out.put_text(evaluation.message);
-}
-
-void put_declaration(ByteWriter& out, Tag tag, const std::string& name, const std::string& unit) {
-  out.put_u8(tag);
-  out.put_text(name);
-  out.put_text(unit);
+  out(evaluation.parent, evaluation.message);
 }
 
 }  // namespace
@@ -83,14 +73,13 @@ std::string results_digest(const std::vector<Parameter>& parameters,
                            const std::vector<Response>& responses,
                            const std::vector<Evaluation>& evaluations) {
   ByteWriter out;
-  out.put_text("linkstudy results 1");
-  out.put_u64(parameters.size());
-  out.put_u64(responses.size());
+  out(std::string_view("linkstudy results 1"), std::uint64_t{parameters.size()},
+      std::uint64_t{responses.size()});
   for (const Parameter& parameter : parameters) {
-    put_declaration(out, kParameter, parameter.path, parameter.unit);
+    out(kParameter, parameter.path, parameter.unit);
   }
   for (const Response& response : responses) {
-    put_declaration(out, kResponse, response.name, response.unit);
+    out(kResponse, response.name, response.unit);
   }
   Sha256 hash;
   hash.update(out.bytes());
@@ -104,11 +93,7 @@ std::string results_digest(const std::vector<Parameter>& parameters,
 
 std::string input_sha256(const std::vector<std::string>& texts) {
   ByteWriter out;
-  out.put_text("linkstudy input 1");
-  out.put_u64(texts.size());
-  for (const std::string& text : texts) {
-    out.put_text(text);
-  }
+  out(std::string_view("linkstudy input 1"), texts);
   return sha256(out.bytes());
 }
 

@@ -9,9 +9,7 @@ Table series_table(const Series& series) {
   }
   const std::size_t n = series.channels.size();
   for (std::size_t row = 0; row < series.rows(); ++row) {
-    std::vector<Cell> cells(n);
-    for (std::size_t c = 0; c < n; ++c) cells[c] = series.values[row * n + c];
-    table.rows.push_back(std::move(cells));
+    append_row(table, std::span(series.values).subspan(row * n, n));
   }
   return table;
 }

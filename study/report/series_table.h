@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/simulation/observers.h"
-#include "study/report/table.h"
+#include "study/record/table.h"
 
 namespace linkstudy {
 

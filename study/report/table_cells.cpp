@@ -3,30 +3,53 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <stdexcept>
+#include <cmath>
 
 namespace linkstudy {
+namespace {
 
-const Cell& cell_of(const Table& table, const std::vector<Cell>& row, std::size_t column) {
-  static const Cell missing;
-  if (row.size() > table.columns.size()) {
-    throw std::invalid_argument(fmt::format("table '{}': a row has {} cells, there are {} columns",
-                                            table.title, row.size(), table.columns.size()));
-  }
-  return column < row.size() ? row[column] : missing;
+std::string one_line(std::string text) {
+  std::ranges::replace_if(
+      text, [](unsigned char c) { return c < ' '; }, ' ');
+  return text;
 }
 
-std::string shown(const TableColumn& column, const Cell& cell, const std::string& missing) {
-  if (const double* number = std::get_if<double>(&cell)) {
-    return fmt::format(fmt::runtime(column.format), *number);
+}  // namespace
+
+std::string shown(const Column& column, std::size_t row, const std::string& missing) {
+  return std::visit(
+      [&](const auto& values) -> std::string {
+        const auto& value = values.at(row);
+        using Kind = std::decay_t<decltype(value)>;
+        if constexpr (std::is_same_v<Kind, std::string>) {
+          return one_line(value);
+        } else if constexpr (std::is_same_v<Kind, double>) {
+          return std::isnan(value) ? missing : fmt::format(fmt::runtime(column.format), value);
+        } else {
+          const auto index = static_cast<std::size_t>(value);
+          return index < column.words.size() ? column.words[index] : fmt::format("{}", value);
+        }
+      },
+      column.values);
+}
+
+std::vector<std::string> wrapped(std::string_view name, std::size_t width) {
+  std::vector<std::string> lines(1);
+  while (!name.empty()) {
+    const std::size_t end = std::min(name.find_first_of("._ "), name.size() - 1) + 1;
+    const std::string_view piece = name.substr(0, end);
+    name.remove_prefix(end);
+    if (!lines.back().empty() && text_width(lines.back()) + text_width(piece) > width) {
+      lines.emplace_back();
+    }
+    lines.back() += piece;
   }
-  if (const std::string* text = std::get_if<std::string>(&cell)) {
-    std::string line = *text;
-    std::ranges::replace_if(
-        line, [](unsigned char c) { return c < ' '; }, ' ');
-    return line;
-  }
-  return missing;
+  return lines;
+}
+
+std::size_t text_width(std::string_view text) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u; }));
 }
 
 }  // namespace linkstudy

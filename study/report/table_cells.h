@@ -1,28 +1,31 @@
-// Cells as people read them: shared by the text, Markdown and LaTeX forms of a table.
+// Cells and heads as people read them: shared by the text, Markdown and LaTeX forms of a table.
 #pragma once
 
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "study/report/table.h"
+#include "study/record/table.h"
 
 namespace linkstudy {
 
-// The cell of a row, missing where the row is shorter. Throws std::invalid_argument for a row that
-// is longer than the table is wide.
-const Cell& cell_of(const Table& table, const std::vector<Cell>& row, std::size_t column);
+// The number in the column's form, the text on one line, `missing` for a number that is NaN.
+std::string shown(const Column& column, std::size_t row, const std::string& missing);
 
-// The number in the column's form, the text on one line, `missing` for nothing.
-std::string shown(const TableColumn& column, const Cell& cell, const std::string& missing);
+// A column's name over lines of at most `width` characters as far as it can be broken behind dots,
+// underscores and blanks.
+std::vector<std::string> wrapped(std::string_view name, std::size_t width);
 
-// content(0), content(1), ... for the columns of a table, with `separator` between them.
+// Characters of a UTF-8 text: all bytes but continuation bytes.
+std::size_t text_width(std::string_view text);
+
+// content(column) for the columns of a table, with `separator` between them.
 template <class Content>
 std::string joined_columns(const Table& table, std::string_view separator, Content content) {
   std::string text;
-  for (std::size_t i = 0; i < table.columns.size(); ++i) {
-    if (i > 0) text += separator;
-    text += content(i);
+  for (const Column& column : table.columns) {
+    if (&column != &table.columns.front()) text += separator;
+    text += content(column);
   }
   return text;
 }

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "study/report/table_cells.h"
+#include "study/report/write_table.h"
 
 namespace linkstudy {
 namespace {
@@ -9,9 +10,7 @@ namespace {
 std::string escaped(std::string_view text) {
   std::string safe;
   for (char c : text) {
-    if (std::string_view("|\\`*_<").find(c) != std::string_view::npos) {
-      safe += '\\';
-    }
+    if (std::string_view("|\\`*_<").find(c) != std::string_view::npos) safe += '\\';
     safe += c;
   }
   return safe;
@@ -20,19 +19,20 @@ std::string escaped(std::string_view text) {
 }  // namespace
 
 std::string markdown_of(const Table& table) {
-  std::string text = table.title.empty() ? "" : fmt::format("**{}**\n\n", escaped(table.title));
+  std::string text = table.name.empty() ? "" : fmt::format("**{}**\n\n", escaped(table.name));
   std::string rule = "|";
   text += "|";
-  for (const TableColumn& column : table.columns) {
+  const std::size_t rows = row_count(table);
+  for (const Column& column : table.columns) {
     const std::string unit = column.unit.empty() ? "" : fmt::format(" [{}]", column.unit);
     text += fmt::format(" {} |", escaped(column.name + unit));
-    rule += column.align == Align::right ? " ---: |" : " :--- |";
+    rule += is_number(column) ? " ---: |" : " :--- |";
   }
   text += "\n" + rule + "\n";
-  for (const std::vector<Cell>& row : table.rows) {
+  for (std::size_t row = 0; row < rows; ++row) {
     text += "|";
-    for (std::size_t i = 0; i < table.columns.size(); ++i) {
-      text += fmt::format(" {} |", escaped(shown(table.columns[i], cell_of(table, row, i), "")));
+    for (const Column& column : table.columns) {
+      text += fmt::format(" {} |", escaped(shown(column, row, "")));
     }
     text += "\n";
   }

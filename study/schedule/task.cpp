@@ -1,62 +1,51 @@
 #include "study/schedule/task.h"
 
-#include <cstring>
 #include <stdexcept>
-#include <type_traits>
 #include <utility>
+
+#include "study/record/bytes.h"
 
 namespace linkstudy {
 namespace {
 
-struct TaskTrailer {
-  std::uint64_t run;
-  std::uint64_t index;
-};
-
-struct ResultTrailer {
-  std::uint64_t run;
-  std::uint64_t index;
-  double seconds;
-  std::uint64_t failed;
-};
-
-template <class Trailer>
-void append_trailer(std::string& bytes, const Trailer& trailer) {
-  static_assert(std::is_trivially_copyable_v<Trailer>);
-  bytes.append(reinterpret_cast<const char*>(&trailer), sizeof trailer);
-}
-
-template <class Trailer>
-Trailer take_trailer(std::string& bytes) {
-  if (bytes.size() < sizeof(Trailer)) throw std::logic_error("a message without its trailer");
-  Trailer trailer;
-  const std::size_t length = bytes.size() - sizeof trailer;
-  std::memcpy(&trailer, bytes.data() + length, sizeof trailer);
+// Takes the numbers at the end off the bytes.
+template <class... Numbers>
+void take_trailer(std::string& bytes, Numbers&... numbers) {
+  constexpr std::size_t kSize = (sizeof(Numbers) + ...);
+  if (bytes.size() < kSize) throw std::logic_error("a message without its trailer");
+  const std::size_t length = bytes.size() - kSize;
+  ByteReader in(std::string_view(bytes).substr(length));
+  in(numbers...);
   bytes.resize(length);
-  return trailer;
 }
 
 }  // namespace
 
 std::string pack_task(Task task) {
-  append_trailer(task.bytes, TaskTrailer{task.run, task.index});
-  return std::move(task.bytes);
+  ByteWriter out(std::move(task.bytes));
+  out(task.run, task.index);
+  return out.take();
 }
 
 Task unpack_task(std::string bytes) {
-  const auto trailer = take_trailer<TaskTrailer>(bytes);
-  return {trailer.run, trailer.index, std::move(bytes)};
+  Task task;
+  take_trailer(bytes, task.run, task.index);
+  task.bytes = std::move(bytes);
+  return task;
 }
 
 std::string pack_result(TaskResult result) {
-  append_trailer(result.bytes,
-                 ResultTrailer{result.run, result.index, result.seconds, result.failed ? 1u : 0u});
-  return std::move(result.bytes);
+  ByteWriter out(std::move(result.bytes));
+  out(result.run, result.index, result.seconds, result.failed);
+  return out.take();
 }
 
 TaskResult unpack_result(std::string bytes, int rank) {
-  const auto trailer = take_trailer<ResultTrailer>(bytes);
-  return {trailer.run, trailer.index, std::move(bytes), trailer.failed != 0, trailer.seconds, rank};
+  TaskResult result;
+  result.rank = rank;
+  take_trailer(bytes, result.run, result.index, result.seconds, result.failed);
+  result.bytes = std::move(bytes);
+  return result;
 }
 
 }  // namespace linkstudy

@@ -67,11 +67,12 @@ void mark_ready() {
 
 // What a rank does with a task.
 std::string evaluate_task(Evaluator& evaluator, const std::string& task, const std::string& host) {
-  std::vector<std::vector<Value>> values;
-  for (Point& point : decode_points(task)) values.push_back(std::move(point.values));
-  std::vector<CaseResult> results = evaluator.evaluate(values);
-  for (CaseResult& result : results) result.host = host;
-  return encode_results(results);
+  std::vector<WholeEvaluation> whole;
+  for (Evaluation& evaluation : evaluator.evaluate(from_bytes<std::vector<Point>>(task))) {
+    evaluation.host = host;
+    whole.push_back({std::move(evaluation)});
+  }
+  return to_bytes(whole);
 }
 
 // The session of one process, step by step.

@@ -7,6 +7,7 @@
 
 #include "core/base/isa.h"
 #include "study/evaluate/form_packs.h"
+#include "study/record/bytes.h"
 #include "study/report/console.h"
 #include "study/session/interrupted.h"
 #include "study/store/store_error.h"
@@ -16,29 +17,21 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-Evaluation to_evaluation(const Point& point, const CaseResult& result, int rank, double seconds) {
-  Evaluation evaluation;
-  evaluation.point = point;
-  evaluation.status = result.status;
-  evaluation.message = one_line(result.message);
-  evaluation.responses = result.responses;
-  evaluation.attempts = result.attempts;
-  evaluation.wall_s = seconds;
-  evaluation.rank = rank;
-  evaluation.host = result.host;
-  return evaluation;
-}
-
-std::vector<CaseResult> results_of(const TaskResult& task, std::size_t count) {
-  if (!task.failed) return decode_results(task.bytes);
-  CaseResult result;
-  result.status = task.lost ? Cause::rank_lost : Cause::exception;
-  result.message = task.bytes;
-  return std::vector<CaseResult>(count, result);
+std::vector<WholeEvaluation> evaluations_of(const TaskResult& task,
+                                            const std::vector<Point>& pack) {
+  if (!task.failed) return from_bytes<std::vector<WholeEvaluation>>(task.bytes);
+  std::vector<WholeEvaluation> failed(pack.size());
+  for (std::size_t i = 0; i < pack.size(); ++i) {
+    Evaluation& evaluation = failed[i].evaluation;
+    evaluation.point = pack[i];
+    evaluation.status = task.lost ? Cause::rank_lost : Cause::exception;
+    evaluation.message = task.bytes;
+  }
+  return failed;
 }
 
 bool same_values(const Point& a, const Point& b) {
-  return encode_points({&a, 1}) == encode_points({&b, 1});
+  return to_bytes(a) == to_bytes(b);
 }
 
 std::size_t failure_limit(const RunOptions& run, std::uint64_t total) {
@@ -109,7 +102,7 @@ void StudySession::run_packs(const std::vector<std::vector<Point>>& packs) {
   points_before_ = {0};
   packs_taken_ = points_taken_ = 0;
   for (const std::vector<Point>& pack : packs) {
-    tasks.push_back(encode_points(pack));
+    tasks.push_back(to_bytes(pack));
     points_before_.push_back(points_before_.back() + pack.size());
   }
   const RunOutcome outcome = pool_.run(
@@ -141,20 +134,22 @@ void StudySession::take_pack(const std::vector<Point>& pack, const TaskResult& t
     log_.warn("{} evaluations from {} on: {}", pack.size(), pack[0].id, one_line(task.bytes));
     return;
   }
-  const std::vector<CaseResult> results = results_of(task, pack.size());
-  const double seconds = task.seconds / static_cast<double>(pack.size());
-  for (std::size_t i = 0; i < pack.size(); ++i) {
-    if (results.at(i).status == Cause::cancelled) {
+  for (WholeEvaluation& whole : evaluations_of(task, pack)) {
+    Evaluation& evaluation = whole.evaluation;
+    if (evaluation.status == Cause::cancelled) {
       has_cancelled_ = true;
-    } else {
-      take(to_evaluation(pack[i], results[i], task.rank, seconds), results[i].traces);
+      continue;
     }
+    evaluation.message = one_line(std::move(evaluation.message));
+    evaluation.wall_s = task.seconds / static_cast<double>(pack.size());
+    evaluation.rank = task.rank;
+    take(std::move(evaluation));
   }
   progress_.update(record_.evaluations().size(), failures_, Clock::now());
 }
 
-void StudySession::take(const Evaluation& evaluation, const std::vector<CaseTraces>& traces) {
-  record_.add(evaluation, traces);
+void StudySession::take(Evaluation taken) {
+  const Evaluation& evaluation = record_.add(std::move(taken));
   log_.debug("evaluation {}: {} in {:.3g} s on rank {}", evaluation.point.id,
              name_of(evaluation.status), evaluation.wall_s, evaluation.rank);
   if (evaluation.status == Cause::ok) return;

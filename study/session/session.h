@@ -44,7 +44,7 @@ class StudySession {
   void run_packs(const std::vector<std::vector<Point>>& packs);
   void take_pack(const std::vector<Point>& pack, const TaskResult& task);
   void end_run(const RunOutcome& outcome);
-  void take(const Evaluation& evaluation, const std::vector<CaseTraces>& traces);
+  void take(Evaluation taken);
   void check_failures();
   std::size_t count_running() const;
 

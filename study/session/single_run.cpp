@@ -8,21 +8,11 @@
 #include "core/topology/nearest_name.h"
 #include "study/config/input_error.h"
 #include "study/metrics/run_metrics.h"
+#include "study/report/choose_table.h"
 #include "study/schedule/run_progress.h"
 
 namespace linkstudy {
 namespace {
-
-std::vector<std::string> split_list(const std::string& text) {
-  std::vector<std::string> parts;
-  std::size_t at = 0;
-  while (at <= text.size()) {
-    const std::size_t comma = std::min(text.find(',', at), text.size());
-    if (comma > at) parts.push_back(text.substr(at, comma - at));
-    at = comma + 1;
-  }
-  return parts;
-}
 
 // Time first, then all channels or those of --signals in the order asked for.
 std::vector<Channel> choose_channels(const std::vector<Channel>& all,

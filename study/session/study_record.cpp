@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <utility>
 
 #include "core/base/isa.h"
 #include "study/store/directory.h"
@@ -134,14 +135,15 @@ void StudyRecord::add_traces(TraceSet set) {
   }
 }
 
-// Traces first: an evaluation that is in the journal has its traces there.
-void StudyRecord::add(Evaluation evaluation, const std::vector<CaseTraces>& traces) {
+// What is stored apart first: an evaluation that is in the journal has it there.
+const Evaluation& StudyRecord::add(Evaluation evaluation) {
   const std::string base = fmt::format("evaluation_{}", evaluation.point.id);
-  for (const CaseTraces& set : traces) {
+  for (const CaseTraces& set : std::exchange(evaluation.traces, {})) {
     add_traces(to_trace_set(base, static_cast<std::int64_t>(evaluation.point.id), set));
   }
+  if (!evaluation.derived.empty()) journal_.append(derived_set(evaluation));
   journal_.append(evaluation);
-  evaluations_[evaluation.point.id] = std::move(evaluation);
+  return evaluations_[evaluation.point.id] = std::move(evaluation);
 }
 
 void StudyRecord::add_references(const std::vector<CaseTraces>& references) {
@@ -163,11 +165,10 @@ const StoredReference* StudyRecord::reference(const std::string& name) const {
   return nullptr;
 }
 
-void StudyRecord::set_tuning(const std::string& name, const std::string& json, DataGroup tables) {
-  journal_.append(NamedText{"tuning/" + name, json});
-  tables.name = name;
-  tables.attributes.push_back({"certificate", json});
-  results_.tunings = {std::move(tables)};
+void StudyRecord::set_tuning(const std::string& name, const std::string& json,
+                             std::vector<Table> tables) {
+  results_.tunings = {{name, {}, {{"certificate", json}}, std::move(tables)}};
+  for (const NamedText& text : tuning_texts(results_.tunings.front())) journal_.append(text);
 }
 
 std::string StudyRecord::write(RunStatus status) {

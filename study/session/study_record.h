@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "study/evaluate/case_result.h"
 #include "study/store/journal.h"
 #include "study/store/results.h"
 
@@ -44,14 +43,15 @@ class StudyRecord {
   std::map<Cause, std::uint64_t> failures() const;
   std::uint64_t failure_count() const;
 
-  void add(Evaluation evaluation, const std::vector<CaseTraces>& traces);
+  // Returns it as it is kept: its traces are among the results.
+  const Evaluation& add(Evaluation evaluation);
   // Histories of the references, for the results.
   void add_references(const std::vector<CaseTraces>& references);
   // Synced at once: it may be all that a start achieves. `name` is that of the load case.
   void add_reference(StoredReference reference);
   const StoredReference* reference(const std::string& name) const;
   // The object of `tune --json` and the tables of a tuning.
-  void set_tuning(const std::string& name, const std::string& json, DataGroup tables);
+  void set_tuning(const std::string& name, const std::string& json, std::vector<Table> tables);
 
   // Writes results.h5 and returns the results digest.
   std::string write(RunStatus status);

@@ -28,6 +28,7 @@ Answer TuningRun::answer_of(std::uint64_t id) const {
   answer.id = id;
   answer.status = evaluation.status;
   answer.message = evaluation.message;
+  answer.derived = evaluation.derived;
   answer.step = std::get<double>(evaluation.point.values.back());
   answer.h_omega = evaluator.worst(RunNumber::h_omega_max, evaluation.responses);
   answer.step_limit = evaluator.worst(RunNumber::step_limit, evaluation.responses);

@@ -40,7 +40,7 @@ Number read_number_attribute(hid_t attribute, hid_t type) {
   return value;
 }
 
-DataAttribute read_attribute(hid_t attribute, const std::string& name) {
+Attribute read_attribute(hid_t attribute, const std::string& name) {
   const hdf5::TypeHandle type(H5Aget_type(attribute), name);
   if (H5Tget_class(type) == H5T_STRING) {
     return {name, read_text_attribute(attribute)};
@@ -59,11 +59,11 @@ herr_t keep_name(hid_t, const char* name, const H5A_info_t*, void* names) {
   return 0;
 }
 
-std::vector<DataAttribute> read_attributes(hid_t object) {
+std::vector<Attribute> read_attributes(hid_t object) {
   std::vector<std::string> names;
   check(H5Aiterate2(object, H5_INDEX_NAME, H5_ITER_INC, nullptr, keep_name, &names),
         "list attributes");
-  std::vector<DataAttribute> attributes;
+  std::vector<Attribute> attributes;
   for (const std::string& name : names) {
     if (name != "path") {
       const hdf5::AttributeHandle handle(H5Aopen(object, name.c_str(), H5P_DEFAULT), name);
@@ -110,18 +110,19 @@ ColumnValues read_values(hid_t dataset) {
   }
 }
 
-DataColumn read_column(hid_t dataset) {
-  DataColumn column;
+Column read_column(hid_t dataset) {
+  Column column;
   column.name = text_of(dataset, "path");
   column.unit = text_of(dataset, "units");
-  column.long_name = text_of(dataset, "long_name");
+  column.meaning = text_of(dataset, "long_name");
   column.role = text_of(dataset, "role");
-  if (column.unit == "1") {
-    column.unit.clear();
+  if (const std::string format = text_of(dataset, "format"); !format.empty()) {
+    column.format = format;
   }
+  if (column.unit == "1") column.unit = text_of(dataset, "unit");
   std::istringstream meanings(text_of(dataset, "flag_meanings"));
   for (std::string word; meanings >> word;) {
-    column.flag_meanings.push_back(word);
+    column.words.push_back(word);
   }
   column.values = read_values(dataset);
   return column;
@@ -153,17 +154,17 @@ std::vector<std::string> link_names(hid_t group) {
   return names;
 }
 
-DataGroup read_group(hid_t group) {
-  DataGroup data;
+Table read_group(hid_t group) {
+  Table data;
   data.attributes = read_attributes(group);
   for (const std::string& name : link_names(group)) {
     const hdf5::ObjectHandle object(H5Oopen(group, name.c_str(), H5P_DEFAULT), "open " + name);
     if (H5Iget_type(object) == H5I_GROUP) {
-      data.groups.push_back(read_group(object));
-      data.groups.back().name = text_of(object, "path");
+      data.parts.push_back(read_group(object));
+      data.parts.back().name = text_of(object, "path");
       continue;
     }
-    DataColumn column = read_column(object);
+    Column column = read_column(object);
     if (column.role != "row") {
       data.compressed = data.compressed || is_chunked(object);
       data.columns.push_back(std::move(column));
@@ -174,7 +175,7 @@ DataGroup read_group(hid_t group) {
 
 }  // namespace
 
-DataGroup read_group_file(const std::filesystem::path& path) {
+Table read_group_file(const std::filesystem::path& path) {
   const hdf5::Quiet quiet;
   try {
     const hdf5::FileHandle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, hdf5::file_access()),

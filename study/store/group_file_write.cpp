@@ -82,7 +82,7 @@ void write_number_attribute(hid_t object, const char* name, Number value) {
   check(H5Awrite(attribute, memory_type(value), &value), name);
 }
 
-void write_attribute(hid_t object, const DataAttribute& attribute) {
+void write_attribute(hid_t object, const Attribute& attribute) {
   const std::string name = dataset_name(attribute.name);
   std::visit(
       [&](const auto& value) {
@@ -107,18 +107,19 @@ void write_flags(hid_t dataset, const std::vector<std::string>& meanings) {
   write_attribute(dataset, "flag_meanings", fmt::format("{}", fmt::join(meanings, " ")));
 }
 
-void write_description(hid_t dataset, const DataColumn& column) {
-  const bool words = std::holds_alternative<std::vector<std::string>>(column.values);
+void write_description(hid_t dataset, const Column& column) {
   if (!column.unit.empty()) {
     write_attribute(dataset, "units", column.unit);
-  } else if (!words && column.flag_meanings.empty()) {
+    if (column.unit == "1") write_attribute(dataset, "unit", column.unit);  // and not left out
+  } else if (is_number(column)) {
     write_attribute(dataset, "units", "1");
   }
-  write_attribute(dataset, "long_name", column.long_name.empty() ? column.name : column.long_name);
+  write_attribute(dataset, "long_name", column.meaning.empty() ? column.name : column.meaning);
   write_attribute(dataset, "role", column.role.empty() ? "data" : column.role);
   write_attribute(dataset, "path", column.name);
-  if (!column.flag_meanings.empty()) {
-    write_flags(dataset, column.flag_meanings);
+  if (column.format != Column{}.format) write_attribute(dataset, "format", column.format);
+  if (!column.words.empty()) {
+    write_flags(dataset, column.words);
   }
 }
 
@@ -164,8 +165,7 @@ hdf5::DatasetHandle write_values(hid_t group, const std::string& name,
   return dataset;
 }
 
-hdf5::DatasetHandle write_column(hid_t group, Names& names, const DataColumn& column,
-                                 bool compressed) {
+hdf5::DatasetHandle write_column(hid_t group, Names& names, const Column& column, bool compressed) {
   const std::string name = names.take(column.name);
   hdf5::DatasetHandle dataset =
       std::visit([&](const auto& values) { return write_values(group, name, values, compressed); },
@@ -175,30 +175,19 @@ hdf5::DatasetHandle write_column(hid_t group, Names& names, const DataColumn& co
 }
 
 // The rows' numbers, for a group whose columns have no axis of their own.
-DataColumn row_numbers(std::size_t count) {
+Column row_numbers(std::size_t count) {
   std::vector<std::int64_t> rows(count);
   std::iota(rows.begin(), rows.end(), 0);
-  return {"row", "", "row number", "row", rows, {}};
+  return {"row", "", "row number", "row", rows};
 }
 
-void require_equal_lengths(const DataGroup& group) {
-  for (const DataColumn& column : group.columns) {
-    if (row_count(column) != row_count(group.columns.front())) {
-      throw std::invalid_argument(fmt::format(
-          "group '{}': column '{}' has {} rows, '{}' has {}", group.name, column.name,
-          row_count(column), group.columns.front().name, row_count(group.columns.front())));
-    }
-  }
-}
-
-void write_columns(hid_t group, Names& names, const DataGroup& data) {
+void write_columns(hid_t group, Names& names, const Table& data) {
   if (data.columns.empty()) {
     return;
   }
-  require_equal_lengths(data);
+  const std::size_t rows = row_count(data);
   const bool has_axis = data.columns.front().role == "axis";
-  const DataColumn axis =
-      has_axis ? data.columns.front() : row_numbers(row_count(data.columns.front()));
+  const Column axis = has_axis ? data.columns.front() : row_numbers(rows);
   const hdf5::DatasetHandle scale = write_column(group, names, axis, data.compressed);
   check(H5DSset_scale(scale, dataset_name(axis.name).c_str()), "make an axis of " + axis.name);
   for (std::size_t i = has_axis ? 1 : 0; i < data.columns.size(); ++i) {
@@ -215,13 +204,13 @@ hdf5::PropertyHandle ordered(hid_t property_class) {
   return properties;
 }
 
-void write_group(hid_t group, const DataGroup& data) {
+void write_group(hid_t group, const Table& data) {
   Names names;
-  for (const DataAttribute& attribute : data.attributes) {
+  for (const Attribute& attribute : data.attributes) {
     write_attribute(group, attribute);
   }
   write_columns(group, names, data);
-  for (const DataGroup& child : data.groups) {
+  for (const Table& child : data.parts) {
     const std::string name = names.take(child.name);
     const hdf5::GroupHandle handle(
         H5Gcreate2(group, name.c_str(), H5P_DEFAULT, ordered(H5P_GROUP_CREATE), H5P_DEFAULT),
@@ -242,7 +231,7 @@ std::string dataset_name(std::string_view free_name) {
   return !name.empty() && is_letter(name.front()) ? name : "n" + name;
 }
 
-void write_group_file(const std::filesystem::path& path, const DataGroup& root) {
+void write_group_file(const std::filesystem::path& path, const Table& root) {
   const hdf5::Quiet quiet;
   std::string image;
   try {

@@ -62,7 +62,7 @@ std::size_t file_size(std::string_view bytes) {
   if (bytes.size() < kEndAt + 8 || bytes[kVersionAt] != kVersion) {
     throw StoreError("HDF5 made a file of an unexpected version");
   }
-  return ByteReader(bytes.substr(kEndAt, 8)).get_u64();
+  return from_bytes<std::uint64_t>(bytes.substr(kEndAt, 8));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "study/record/digest.h"
@@ -29,12 +30,20 @@ void replace_or_add(std::vector<Item>& items, Item item) {
 // Sorts a record into the contents.
 struct Collect {
   JournalContents& contents;
+  std::map<std::string, std::size_t> trace_sets{};  // by name: there is one for each evaluation
 
   void operator()(Evaluation&& evaluation) const {
     contents.evaluations.push_back(std::move(evaluation));
     ++contents.evaluations_since_start;
   }
-  void operator()(TraceSet&& set) const { replace_or_add(contents.traces, std::move(set)); }
+  void operator()(TraceSet&& set) {
+    const auto [at, is_new] = trace_sets.emplace(set.name, contents.traces.size());
+    if (is_new) {
+      contents.traces.push_back(std::move(set));
+    } else {
+      contents.traces[at->second] = std::move(set);
+    }
+  }
   void operator()(NamedText&& text) const { replace_or_add(contents.texts, std::move(text)); }
   void operator()(StoredReference&& reference) const {
     replace_or_add(contents.references, std::move(reference));
@@ -99,12 +108,13 @@ JournalContents parse_journal(std::string_view bytes, const std::filesystem::pat
   contents.version = header.version;
   contents.input_sha256 = header.input_sha256;
   std::size_t at = kJournalHeaderSize;
+  Collect collect{contents};
   while (true) {
     const std::string_view payload = next_payload(bytes.substr(at));
     if (payload.empty()) {
       break;
     }
-    std::visit(Collect{contents}, decode_payload(payload));
+    std::visit(collect, decode_payload(payload));
     at += kRecordPrefixSize + payload.size();
   }
   contents.evaluations = latest_by_id(std::move(contents.evaluations));

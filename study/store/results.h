@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "study/record/evaluation.h"
-#include "study/store/data_group.h"
+#include "study/record/table.h"
 
 namespace linkstudy {
 
@@ -21,6 +21,10 @@ struct StudyDescription {
   std::vector<Response> responses;
 };
 
+void visit_members(auto& archive, Like<StudyDescription> auto& study) {
+  archive(study.name, study.kind, study.seed, study.parameters, study.responses);
+}
+
 // Time histories of one run. The trace named "time" is their axis, when there is one.
 struct TraceSet {
   std::string name;              // "reference", "evaluation_12"
@@ -28,16 +32,28 @@ struct TraceSet {
   std::vector<Trace> traces;
 };
 
+void visit_members(auto& archive, Like<TraceSet> auto& set) {
+  archive(set.name, set.evaluation, set.traces);
+}
+
 struct NamedText {
   std::string name;
   std::string text;
 };
+
+void visit_members(auto& archive, Like<NamedText> auto& text) {
+  archive(text.name, text.text);
+}
 
 // A reference run that has ended, in bytes of study/evaluate: no later start repeats it.
 struct StoredReference {
   std::string name;  // of the load case, or empty
   std::string bytes;
 };
+
+void visit_members(auto& archive, Like<StoredReference> auto& reference) {
+  archive(reference.name, reference.bytes);
+}
 
 // One start or resume of the program on a directory.
 struct ProvenanceRow {
@@ -55,6 +71,17 @@ struct ProvenanceRow {
   std::uint32_t restart = 0;  // how often that job was requeued before
 };
 
+// As version 2 of the journal has it.
+void visit_without_job(auto& archive, Like<ProvenanceRow> auto& row) {
+  archive(row.event, row.time_unix_s, row.total, row.ranks, row.host, row.program_version,
+          row.git_revision, row.command, row.simd, row.lanes);
+}
+
+void visit_members(auto& archive, Like<ProvenanceRow> auto& row) {
+  visit_without_job(archive, row);
+  archive(row.job, row.restart);
+}
+
 struct StudyResults {
   StudyDescription description;
   RunStatus status = RunStatus::running;
@@ -65,10 +92,11 @@ struct StudyResults {
   std::vector<Evaluation> evaluations;
   std::vector<TraceSet> references;
   std::vector<TraceSet> traces;
-  std::vector<DataGroup> tunings;       // subgroups scan, rounds; the certificate as attributes
-  std::vector<DataGroup> convergences;  // one table each
+  std::vector<Table> tunings;       // tables of a tuning as parts, its JSON object as attribute
+  std::vector<Table> convergences;  // one table each
   std::vector<ProvenanceRow> provenance;
   std::vector<NamedText> texts;  // input text, resolved input, build, machine
+  std::string dropped;           // what the journal has lost, in a sentence; empty: nothing
 };
 
 }  // namespace linkstudy

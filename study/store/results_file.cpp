@@ -4,9 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 
+#include "study/record/bytes.h"
 #include "study/record/digest.h"
+#include "study/store/directory.h"
+#include "study/store/file.h"
 #include "study/store/group_file.h"
 #include "study/store/results_tree.h"
 #include "study/store/store_error.h"
@@ -19,30 +23,32 @@ constexpr std::int64_t kFormatVersion = 1;
 constexpr std::array<std::string_view, 3> kRunStatusNames = {"running", "complete", "interrupted"};
 
 constexpr std::string_view kReferencePrefix = "reference";
+constexpr std::string_view kDerivedPrefix = "derived_";
 constexpr std::string_view kTuningPrefix = "tuning/";
+constexpr std::string_view kTuningTablesPrefix = "tuning_tables/";
 
-void add_groups(DataGroup& root, const std::string& name, std::vector<DataGroup> groups) {
+void add_groups(Table& root, const std::string& name, std::vector<Table> groups) {
   if (!groups.empty()) {
-    root.groups.push_back({name, {}, {}, std::move(groups)});
+    root.parts.push_back({name, {}, {}, std::move(groups)});
   }
 }
 
-std::vector<DataGroup> trace_groups(const std::vector<TraceSet>& sets) {
-  std::vector<DataGroup> groups;
+std::vector<Table> trace_groups(const std::vector<TraceSet>& sets) {
+  std::vector<Table> groups;
   std::ranges::transform(sets, std::back_inserter(groups), traces_group);
   return groups;
 }
 
 // Part of the tree, or an empty one where the file has none.
-const DataGroup& part(const DataGroup& tree, std::string_view name) {
-  static const DataGroup empty;
-  const DataGroup* found = find_group(tree, name);
+const Table& part(const Table& tree, std::string_view name) {
+  static const Table empty;
+  const Table* found = find_part(tree, name);
   return found == nullptr ? empty : *found;
 }
 
 template <class Type>
-Type attribute(const DataGroup& group, std::string_view name) {
-  const DataAttribute* found = find_attribute(group, name);
+Type attribute(const Table& group, std::string_view name) {
+  const Attribute* found = find_attribute(group, name);
   const Type* value = found == nullptr ? nullptr : std::get_if<Type>(&found->value);
   if (value == nullptr) {
     throw StoreError(fmt::format("group '{}' has no attribute '{}'", group.name, name));
@@ -51,8 +57,8 @@ Type attribute(const DataGroup& group, std::string_view name) {
 }
 
 template <class Type>
-const std::vector<Type>& values_of(const DataGroup& group, std::string_view name) {
-  const DataColumn* found = find_column(group, name);
+const std::vector<Type>& values_of(const Table& group, std::string_view name) {
+  const Column* found = find_column(group, name);
   const auto* values = found == nullptr ? nullptr : std::get_if<std::vector<Type>>(&found->values);
   if (values == nullptr) {
     throw StoreError(fmt::format("group '{}' has no column '{}'", group.name, name));
@@ -62,15 +68,15 @@ const std::vector<Type>& values_of(const DataGroup& group, std::string_view name
 
 // The column of a role: a parameter may have the name of an outcome, its role tells them apart.
 template <class Type>
-const std::vector<Type>& values_with_role(const DataGroup& group, std::string_view role) {
-  const auto found = std::ranges::find(group.columns, role, &DataColumn::role);
+const std::vector<Type>& values_with_role(const Table& group, std::string_view role) {
+  const auto found = std::ranges::find(group.columns, role, &Column::role);
   if (found == group.columns.end() || !std::holds_alternative<std::vector<Type>>(found->values)) {
     throw StoreError(fmt::format("group '{}' has no column of role '{}'", group.name, role));
   }
   return std::get<std::vector<Type>>(found->values);
 }
 
-void read_parameter(const DataColumn& column, std::vector<Evaluation>& evaluations) {
+void read_parameter(const Column& column, std::vector<Evaluation>& evaluations) {
   for (std::size_t i = 0; i < evaluations.size(); ++i) {
     std::vector<Value>& point = evaluations[i].point.values;
     if (const auto* words = std::get_if<std::vector<std::string>>(&column.values)) {
@@ -81,16 +87,22 @@ void read_parameter(const DataColumn& column, std::vector<Evaluation>& evaluatio
   }
 }
 
-void read_columns(const DataGroup& study, StudyResults& results) {
-  for (const DataColumn& column : study.columns) {
+void read_columns(const Table& study, StudyResults& results) {
+  for (const Column& column : study.columns) {
     if (column.role == "parameter") {
-      results.description.parameters.push_back({column.name, column.unit, column.long_name});
+      results.description.parameters.push_back({column.name, column.unit, column.meaning});
       read_parameter(column, results.evaluations);
     } else if (column.role == "response") {
-      results.description.responses.push_back({column.name, column.unit, column.long_name});
+      results.description.responses.push_back({column.name, column.unit, column.meaning});
       const auto& values = std::get<std::vector<double>>(column.values);
       for (std::size_t i = 0; i < results.evaluations.size(); ++i) {
         results.evaluations[i].responses.push_back(values[i]);
+      }
+    } else if (column.role == "derived") {
+      const auto& values = std::get<std::vector<double>>(column.values);
+      for (std::size_t i = 0; i < results.evaluations.size(); ++i) {
+        if (std::isnan(values[i])) continue;
+        results.evaluations[i].derived.push_back({column.name, column.unit, {values[i]}});
       }
     }
   }
@@ -103,7 +115,7 @@ Cause cause_of(std::uint8_t number) {
   return static_cast<Cause>(number);
 }
 
-void read_study(const DataGroup& study, const DataGroup& runtime, StudyResults& results) {
+void read_study(const Table& study, const Table& runtime, StudyResults& results) {
   const auto& ids = values_with_role<std::int64_t>(study, "axis");
   const auto& status = values_with_role<std::uint8_t>(study, "status");
   const auto& message = values_with_role<std::string>(study, "message");
@@ -127,35 +139,42 @@ void read_study(const DataGroup& study, const DataGroup& runtime, StudyResults& 
   read_columns(study, results);
 }
 
-void read_provenance(const DataGroup& group, StudyResults& results) {
-  const auto& event = values_of<std::string>(group, "event");
-  const auto& time = values_of<double>(group, "time");
-  const auto& total = values_of<std::int64_t>(group, "total");
-  const auto& ranks = values_of<std::int64_t>(group, "ranks");
-  const auto& host = values_of<std::string>(group, "host");
-  const auto& version = values_of<std::string>(group, "program_version");
-  const auto& revision = values_of<std::string>(group, "git_revision");
-  const auto& command = values_of<std::string>(group, "command");
-  const bool has_lanes = find_column(group, "lanes") != nullptr;
-  for (std::size_t i = 0; i < event.size(); ++i) {
-    results.provenance.push_back({event[i], time[i], static_cast<std::uint64_t>(total[i]),
-                                  static_cast<std::uint32_t>(ranks[i]), host[i], version[i],
-                                  revision[i], command[i], "", 1});
-    if (!has_lanes) continue;
-    results.provenance.back().simd = values_of<std::string>(group, "simd")[i];
-    results.provenance.back().lanes =
-        static_cast<std::uint32_t>(values_of<std::int64_t>(group, "lanes")[i]);
-  }
-  for (const DataAttribute& text : group.attributes) {
+// A column that older files may lack.
+template <class Type, class Field>
+void read_if_there(const Table& group, const char* name, std::vector<ProvenanceRow>& rows,
+                   Field ProvenanceRow::*member) {
+  if (find_column(group, name) == nullptr) return;
+  const auto& values = values_of<Type>(group, name);
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i].*member = static_cast<Field>(values[i]);
+}
+
+void read_provenance(const Table& group, StudyResults& results) {
+  using Row = ProvenanceRow;
+  using Count = std::int64_t;
+  std::vector<Row>& rows = results.provenance;
+  rows.resize(values_of<std::string>(group, "event").size());
+  read_if_there<std::string>(group, "event", rows, &Row::event);
+  read_if_there<double>(group, "time", rows, &Row::time_unix_s);
+  read_if_there<Count>(group, "total", rows, &Row::total);
+  read_if_there<Count>(group, "ranks", rows, &Row::ranks);
+  read_if_there<std::string>(group, "host", rows, &Row::host);
+  read_if_there<std::string>(group, "program_version", rows, &Row::program_version);
+  read_if_there<std::string>(group, "git_revision", rows, &Row::git_revision);
+  read_if_there<std::string>(group, "command", rows, &Row::command);
+  read_if_there<std::string>(group, "simd", rows, &Row::simd);
+  read_if_there<Count>(group, "lanes", rows, &Row::lanes);
+  read_if_there<std::string>(group, "job", rows, &Row::job);
+  read_if_there<Count>(group, "restart", rows, &Row::restart);
+  for (const Attribute& text : group.attributes) {
     results.texts.push_back({text.name, attribute<std::string>(group, text.name)});
   }
 }
 
-std::vector<TraceSet> read_traces(const DataGroup& parent) {
+std::vector<TraceSet> read_traces(const Table& parent) {
   std::vector<TraceSet> sets;
-  for (const DataGroup& group : parent.groups) {
+  for (const Table& group : parent.parts) {
     TraceSet set{group.name, attribute<std::int64_t>(group, "evaluation"), {}};
-    for (const DataColumn& column : group.columns) {
+    for (const Column& column : group.columns) {
       set.traces.push_back(
           {column.name, column.unit, std::get<std::vector<double>>(column.values)});
     }
@@ -172,9 +191,9 @@ RunStatus run_status(const std::string& name) {
   return static_cast<RunStatus>(found - kRunStatusNames.begin());
 }
 
-void require_format(const DataGroup& tree) {
-  const DataAttribute* format = find_attribute(tree, "format");
-  if (format == nullptr || format->value != DataAttribute{"", std::string(kFormat)}.value) {
+void require_format(const Table& tree) {
+  const Attribute* format = find_attribute(tree, "format");
+  if (format == nullptr || format->value != Attribute{"", std::string(kFormat)}.value) {
     throw StoreError("not a results file of linkstudy");
   }
   const auto version = attribute<std::int64_t>(tree, "format_version");
@@ -186,12 +205,43 @@ void require_format(const DataGroup& tree) {
   }
 }
 
+void add_traces(const TraceSet& set, StudyResults& results) {
+  if (!set.name.starts_with(kDerivedPrefix)) {
+    (set.name.starts_with(kReferencePrefix) ? results.references : results.traces).push_back(set);
+    return;
+  }
+  const auto id = static_cast<std::uint64_t>(set.evaluation);
+  const auto found = std::ranges::lower_bound(results.evaluations, id, {},
+                                              [](const Evaluation& one) { return one.point.id; });
+  const bool is_there = found != results.evaluations.end() && found->point.id == id;
+  if (is_there) found->derived = set.traces;
+}
+
+Table& tuning_named(StudyResults& results, std::string_view name) {
+  const auto found = std::ranges::find(results.tunings, name, &Table::name);
+  if (found != results.tunings.end()) return *found;
+  return results.tunings.emplace_back(Table{std::string(name)});
+}
+
+void add_text(const NamedText& text, StudyResults& results) {
+  const std::string_view name = text.name;
+  if (name.starts_with(kTuningPrefix)) {
+    tuning_named(results, name.substr(kTuningPrefix.size())).attributes = {
+        {"certificate", text.text}};
+  } else if (name.starts_with(kTuningTablesPrefix)) {
+    tuning_named(results, name.substr(kTuningTablesPrefix.size())).parts =
+        from_bytes<std::vector<Table>>(text.text);
+  } else {
+    results.texts.push_back(text);
+  }
+}
+
 }  // namespace
 
-DataGroup tree_of(const StudyResults& results) {
+Table tree_of(const StudyResults& results) {
   const std::vector<Evaluation> evaluations = latest_by_id(results.evaluations);
   const StudyDescription& description = results.description;
-  DataGroup root;
+  Table root;
   root.attributes = {
       {"format", std::string(kFormat)},
       {"format_version", kFormatVersion},
@@ -202,17 +252,17 @@ DataGroup tree_of(const StudyResults& results) {
       {"seed", description.seed},
       {"program_version", results.program_version},
       {"git_revision", results.git_revision}};
-  root.groups.push_back(study_group(description, evaluations));
+  root.parts.push_back(study_group(description, evaluations));
   add_groups(root, "reference", trace_groups(results.references));
   add_groups(root, "traces", trace_groups(results.traces));
   add_groups(root, "tuning", results.tunings);
   add_groups(root, "convergence", results.convergences);
-  root.groups.push_back(runtime_group(evaluations));
-  root.groups.push_back(provenance_group(results.provenance, results.texts));
+  root.parts.push_back(runtime_group(evaluations));
+  root.parts.push_back(provenance_group(results.provenance, results.texts));
   return root;
 }
 
-StudyResults results_of(const DataGroup& tree) {
+StudyResults results_of(const Table& tree) {
   require_format(tree);
   StudyResults results;
   results.status = run_status(attribute<std::string>(tree, "status"));
@@ -221,15 +271,15 @@ StudyResults results_of(const DataGroup& tree) {
   results.description.seed = attribute<std::uint64_t>(tree, "seed");
   results.program_version = attribute<std::string>(tree, "program_version");
   results.git_revision = attribute<std::string>(tree, "git_revision");
-  const DataGroup& study = part(tree, "study");
+  const Table& study = part(tree, "study");
   results.description.name = attribute<std::string>(study, "name");
   results.description.kind = attribute<std::string>(study, "kind");
   read_study(study, part(tree, "runtime"), results);
   read_provenance(part(tree, "provenance"), results);
   results.references = read_traces(part(tree, "reference"));
   results.traces = read_traces(part(tree, "traces"));
-  results.tunings = part(tree, "tuning").groups;
-  results.convergences = part(tree, "convergence").groups;
+  results.tunings = part(tree, "tuning").parts;
+  results.convergences = part(tree, "convergence").parts;
   return results;
 }
 
@@ -243,28 +293,44 @@ StudyResults results_from(const JournalContents& contents) {
     results.program_version = contents.provenance.back().program_version;
     results.git_revision = contents.provenance.back().git_revision;
   }
-  for (const TraceSet& set : contents.traces) {
-    (set.name.starts_with(kReferencePrefix) ? results.references : results.traces).push_back(set);
-  }
-  for (const NamedText& text : contents.texts) {
-    if (text.name.starts_with(kTuningPrefix)) {
-      results.tunings.push_back(
-          {text.name.substr(kTuningPrefix.size()), {}, {{"certificate", text.text}}, {}});
-    } else {
-      results.texts.push_back(text);
-    }
+  for (const TraceSet& set : contents.traces) add_traces(set, results);
+  for (const NamedText& text : contents.texts) add_text(text, results);
+  return results;
+}
+
+StudyResults read_stored(const std::filesystem::path& path) {
+  if (std::filesystem::is_regular_file(path)) return read_results(path);
+  const JournalContents contents = read_journal(path);
+  StudyResults results = results_from(contents);
+  // A study that runs is written to at this moment.
+  if (!is_locked(path / kJournalName)) results.dropped = dropped_text(contents, path);
+  const bool misses_tables = std::ranges::any_of(
+      results.tunings, [](const Table& tuning) { return tuning.parts.empty(); });
+  if (misses_tables && std::filesystem::exists(path / kResultsName)) {
+    results.tunings = read_results(path / kResultsName).tunings;
   }
   return results;
 }
 
+TraceSet derived_set(const Evaluation& evaluation) {
+  return {fmt::format("{}{}", kDerivedPrefix, evaluation.point.id),
+          static_cast<std::int64_t>(evaluation.point.id), evaluation.derived};
+}
+
+std::vector<NamedText> tuning_texts(const Table& tuning) {
+  const Attribute* json = find_attribute(tuning, "certificate");
+  return {{fmt::format("{}{}", kTuningPrefix, tuning.name), std::get<std::string>(json->value)},
+          {fmt::format("{}{}", kTuningTablesPrefix, tuning.name), to_bytes(tuning.parts)}};
+}
+
 std::string write_results(const std::filesystem::path& path, const StudyResults& results) {
-  const DataGroup tree = tree_of(results);
+  const Table tree = tree_of(results);
   write_group_file(path, tree);
   return attribute<std::string>(tree, "results_digest");
 }
 
 StudyResults read_results(const std::filesystem::path& path) {
-  const DataGroup tree = read_group_file(path);
+  const Table tree = read_group_file(path);
   try {
     return results_of(tree);
   } catch (const StoreError& error) {

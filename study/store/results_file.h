@@ -1,7 +1,8 @@
 // DIR/results.h5: the results of a study as a file that xarray and h5py open. Layout:
 //   /           format, format_version, status, input_sha256, results_digest, seed, ...
 //   /study      axis evaluation; a dataset per parameter and response; status, message, attempts,
-//               parent_evaluation. Failed rows stay, with NaN and their cause.
+//               parent_evaluation. Failed rows stay, with NaN and their cause. What is derived of
+//               the input has the role "derived".
 //   /reference/<name>, /traces/<name>   time histories over their time
 //   /tuning/<name>, /convergence/<name> groups of columns, texts as attributes
 //   /runtime    wall time, rank, host of each evaluation: outside the digest
@@ -10,24 +11,32 @@
 
 #include <filesystem>
 
-#include "study/store/data_group.h"
+#include "study/record/table.h"
 #include "study/store/journal.h"
 #include "study/store/results.h"
 
 namespace linkstudy {
 
 // Results as far as a journal knows them: description, evaluations, traces, provenance, texts and
-// input digest. Traces whose name begins with "reference" become references; a text named
-// "tuning/<name>" becomes the attribute "certificate" of that tuning.
+// input digest. Traces whose name begins with "reference" become references, those of derived_set
+// go to their evaluation, and the texts of tuning_texts become tunings.
 StudyResults results_from(const JournalContents& contents);
+
+// How the journal keeps what is derived for an evaluation, and a tuning: its tables, and its JSON
+// object, the attribute "certificate".
+TraceSet derived_set(const Evaluation& evaluation);
+std::vector<NamedText> tuning_texts(const Table& tuning);
 
 // Writes the file whole or not at all and returns the results digest in it.
 std::string write_results(const std::filesystem::path& path, const StudyResults& results);
 
 StudyResults read_results(const std::filesystem::path& path);
 
+// Of a directory by its journal (and what older journals lack by its results.h5), or of a file.
+StudyResults read_stored(const std::filesystem::path& path);
+
 // The same without a file.
-DataGroup tree_of(const StudyResults& results);
-StudyResults results_of(const DataGroup& tree);
+Table tree_of(const StudyResults& results);
+StudyResults results_of(const Table& tree);
 
 }  // namespace linkstudy

@@ -4,17 +4,15 @@
 #include <string>
 #include <vector>
 
-#include "study/store/data_group.h"
+#include "study/record/table.h"
 #include "study/store/results.h"
 
 namespace linkstudy {
 
 // Evaluations are given by id, one per id.
-DataGroup study_group(const StudyDescription& description,
-                      const std::vector<Evaluation>& evaluations);
-DataGroup runtime_group(const std::vector<Evaluation>& evaluations);
-DataGroup provenance_group(const std::vector<ProvenanceRow>& rows,
-                           const std::vector<NamedText>& texts);
-DataGroup traces_group(const TraceSet& set);
+Table study_group(const StudyDescription& description, const std::vector<Evaluation>& evaluations);
+Table runtime_group(const std::vector<Evaluation>& evaluations);
+Table provenance_group(const std::vector<ProvenanceRow>& rows, const std::vector<NamedText>& texts);
+Table traces_group(const TraceSet& set);
 
 }  // namespace linkstudy

@@ -13,6 +13,7 @@
 
 #include "core/simulation/cause.h"
 #include "core/topology/problem.h"
+#include "study/record/evaluation.h"
 
 namespace linkstudy::tuning {
 
@@ -57,11 +58,12 @@ struct Request {
 struct Answer {
   std::uint64_t id = 0;
   Cause status = Cause::ok;
-  std::string message;         // what a cause has to say
-  std::vector<double> errors;  // one per component; ignored unless status is ok
-  double h_omega = 0.0;        // step times highest eigenfrequency; NaN or 0 when unknown
-  double step_limit = 0.0;     // s, stability limit of the step; NaN or 0 when unknown
-  double step = 0.0;           // s, the step this evaluation used
+  std::string message;           // what a cause has to say
+  std::vector<double> errors;    // one per component; ignored unless status is ok
+  double h_omega = 0.0;          // step times highest eigenfrequency; NaN or 0 when unknown
+  double step_limit = 0.0;       // s, stability limit of the step; NaN or 0 when unknown
+  double step = 0.0;             // s, the step this evaluation used
+  std::vector<Trace> derived{};  // one value each: the damping in SI units that a ratio gives
 };
 
 // Answers come in the order of the requests. What is asked depends on earlier answers only.

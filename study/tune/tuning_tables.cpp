@@ -2,74 +2,102 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <iterator>
 #include <limits>
 
 namespace linkstudy::tuning {
 namespace {
 
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
 const TunedVariable& variable_of(const TuningResult& result) {
   return result.problem.variables.front();
 }
 
-template <typename Row, typename Get>
-auto collect(const std::vector<Row>& rows, Get get) {
-  using Value = std::decay_t<decltype(get(rows.front()))>;
-  std::vector<Value> values;
-  std::transform(rows.begin(), rows.end(), std::back_inserter(values), get);
-  return values;
+std::int64_t to_count(std::uint64_t number) {
+  return static_cast<std::int64_t>(number);
 }
 
+// Columns one after the other, each from the rows of one list.
+template <class Row>
+class TableOf {
+ public:
+  TableOf(const char* name, const std::vector<Row>& rows) : table_{name}, rows_(rows) {}
+
+  template <class Field>
+  TableOf& add(const std::string& name, const std::string& unit, const char* meaning, Field field) {
+    table_.columns.push_back({name, unit, meaning, "tuning", column_of(rows_, field)});
+    return *this;
+  }
+
+  Table take() { return std::move(table_); }
+
+ private:
+  Table table_;
+  const std::vector<Row>& rows_;
+};
+
 Table make_result_table(const TuningResult& result) {
-  Table table{"result", {}};
-  const auto number = [&](const std::string& name, const std::string& unit, double value) {
-    table.columns.push_back({name, unit, std::vector<double>{value}});
-  };
-  const auto word = [&](const std::string& name, std::string_view value) {
-    table.columns.push_back({name, "", std::vector<std::string>{std::string(value)}});
-  };
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  const Window none{nan, nan, nan, HighLimit::range, false};
-  const Window window = result.window.value_or(none);
+  const std::vector<TuningResult> one = {result};
+  TableOf table("result", one);
+  using Result = TuningResult;
+  const bool matches = !result.point.empty();
   const std::string unit = variable_of(result).unit;
-  word("status", name_of(result.status));
-  word("reason", result.reason);
-  word("parameter", variable_of(result).path);
-  number("value", unit, result.point.empty() ? nan : result.point.front());
-  number("objective", "", result.point.empty() ? nan : result.objective);
-  number("window_low", unit, window.low);
-  number("window_high", unit, window.high);
-  number("margin_decades", "", window.margin_decades);
-  word("high_limited_by", result.window ? name_of(window.high_limited_by) : "");
-  number("suggested_step", "s", result.suggestion ? result.suggestion->step : nan);
-  number("evaluations", "", static_cast<double>(result.observations.size()));
-  number("rounds", "", static_cast<double>(result.rounds));
-  return table;
+  const auto of_window = [](double Window::*member) {
+    return [member](const Result& r) { return r.window ? (*r.window).*member : kNan; };
+  };
+  table.add("parameter", "", "what was tuned", [](const Result& r) { return variable_of(r).path; });
+  table.add("value", unit, "lowest that matches",
+            [&](const Result& r) { return matches ? r.point.front() : kNan; });
+  for (const Trace& derived : result.answer.derived) {
+    table.add(derived.name, derived.unit, "what the input says in other terms, at the answer",
+              [&](const Result&) { return matches ? derived.values.front() : kNan; });
+  }
+  table.add("window_low", unit, "where the values that match begin", of_window(&Window::low));
+  table.add("window_high", unit, "where they end", of_window(&Window::high));
+  table.add("margin_decades", "", "log10 of window_high / window_low",
+            of_window(&Window::margin_decades));
+  table.add("high_limited_by", "", "what ends the window", [](const Result& r) {
+    return r.window ? std::string(name_of(r.window->high_limited_by)) : std::string();
+  });
+  table.add("status", "", "verdict of the certificate, or infeasible",
+            [](const Result& r) { return std::string(name_of(r.status)); });
+  table.add("reason", "", "of the verdict", [](const Result& r) { return r.reason; });
+  table.add("suggested_step", "s", "that would open a window",
+            [](const Result& r) { return r.suggestion ? r.suggestion->step : kNan; });
+  table.add("evaluations", "", "how many it took",
+            [](const Result& r) { return to_count(r.observations.size()); });
+  table.add("rounds", "", "batches asked for", [](const Result& r) { return to_count(r.rounds); });
+  table.add("objective", "", "sum of log10 of the values",
+            [&](const Result& r) { return matches ? r.objective : kNan; });
+  return table.take();
 }
 
 Table make_component_table(const TuningResult& result) {
-  const auto& components = result.problem.components;
   std::vector<double> errors = result.answer.errors;
-  errors.resize(components.size(), std::numeric_limits<double>::quiet_NaN());
-  return {"components",
-          {{"name", "", collect(components, [](const auto& row) { return row.name; })},
-           {"tolerance", "", collect(components, [](const auto& row) { return row.tolerance; })},
-           {"error", "", errors}}};
+  errors.resize(result.problem.components.size(), kNan);
+  using Row = MatchComponent;
+  TableOf table("components", result.problem.components);
+  table.add("name", "", "of the matched component", [](const Row& r) { return r.name; });
+  table.add("tolerance", "1", "largest relative error allowed",
+            [](const Row& r) { return r.tolerance; });
+  std::size_t i = 0;
+  table.add("error", "1", "relative error at the answer", [&](const Row&) { return errors[i++]; });
+  return table.take();
 }
 
 Table make_scan_table(const TuningResult& result) {
-  const auto& points = result.points;
-  return {
-      "scan",
-      {{"value", variable_of(result).unit, collect(points, [](const auto& p) { return p.value; })},
-       {"ratio", "", collect(points, [](const auto& p) { return p.ratio; })},
-       {"side", "", collect(points, [](const auto& p) { return std::string(name_of(p.side)); })},
-       {"cause", "",
-        collect(points, [](const auto& p) { return std::string(linkstudy::name_of(p.cause)); })},
-       {"h_omega", "", collect(points, [](const auto& p) { return p.h_omega; })},
-       {"evaluation", "",
-        collect(points, [](const auto& p) { return static_cast<double>(p.evaluation); })}}};
+  using Row = ScanPoint;
+  TableOf table("scan", result.points);
+  table.add("value", variable_of(result).unit, "tried", [](const Row& r) { return r.value; });
+  table.add("ratio", "1", "largest error over its tolerance", [](const Row& r) { return r.ratio; });
+  table.add("side", "", "feasible, or on which side it fails",
+            [](const Row& r) { return std::string(name_of(r.side)); });
+  table.add("cause", "", "why the run ended",
+            [](const Row& r) { return std::string(linkstudy::name_of(r.cause)); });
+  table.add("h_omega", "1", "step times highest eigenfrequency",
+            [](const Row& r) { return r.h_omega; });
+  table.add("evaluation", "", "its number", [](const Row& r) { return to_count(r.evaluation); });
+  return table.take();
 }
 
 Table make_certificate_table(const TuningResult& result) {
@@ -77,33 +105,31 @@ Table make_certificate_table(const TuningResult& result) {
   if (result.certificate) {
     claims.assign(result.certificate->claims.begin(), result.certificate->claims.end());
   }
-  return {"certificate",
-          {{"claim", "", collect(claims, [](const auto& c) { return c.name; })},
-           {"statement", "", collect(claims, [](const auto& c) { return c.statement; })},
-           {"verdict", "",
-            collect(claims, [](const auto& c) { return std::string(name_of(c.verdict)); })},
-           {"reason", "", collect(claims, [](const auto& c) { return c.reason; })},
-           {"evaluations", "", collect(claims, [](const auto& c) {
-              return fmt::format("{}", fmt::join(c.evaluations, " "));
-            })}}};
+  using Row = Claim;
+  TableOf table("certificate", claims);
+  table.add("claim", "", "", [](const Row& r) { return r.name; });
+  table.add("statement", "", "", [](const Row& r) { return r.statement; });
+  table.add("verdict", "", "", [](const Row& r) { return std::string(name_of(r.verdict)); });
+  table.add("reason", "", "", [](const Row& r) { return r.reason; });
+  table.add("evaluations", "", "that the claim rests on",
+            [](const Row& r) { return fmt::format("{}", fmt::join(r.evaluations, " ")); });
+  return table.take();
 }
 
 Table make_evaluation_table(const TuningResult& result) {
-  const auto& seen = result.observations;
-  const auto& components = result.problem.components;
-  return {
-      "evaluations",
-      {{"evaluation", "",
-        collect(seen, [](const auto& o) { return static_cast<double>(o.answer.id); })},
-       {"value", variable_of(result).unit,
-        collect(seen, [](const auto& o) { return o.request.x.front(); })},
-       {"step_factor", "", collect(seen, [](const auto& o) { return o.request.step_factor; })},
-       {"purpose", "", collect(seen, [](const auto& o) { return o.request.purpose; })},
-       {"status", "",
-        collect(seen,
-                [](const auto& o) { return std::string(linkstudy::name_of(o.answer.status)); })},
-       {"ratio", "",
-        collect(seen, [&](const auto& o) { return compute_ratio(o.answer, components); })}}};
+  using Row = Observation;
+  TableOf table("evaluations", result.observations);
+  table.add("evaluation", "", "its number", [](const Row& r) { return to_count(r.answer.id); });
+  table.add("value", variable_of(result).unit, "tried",
+            [](const Row& r) { return r.request.x.front(); });
+  table.add("step_factor", "1", "of the base step",
+            [](const Row& r) { return r.request.step_factor; });
+  table.add("purpose", "", "why it was asked for", [](const Row& r) { return r.request.purpose; });
+  table.add("status", "", "why the run ended",
+            [](const Row& r) { return std::string(linkstudy::name_of(r.answer.status)); });
+  table.add("ratio", "1", "largest error over its tolerance",
+            [&](const Row& r) { return compute_ratio(r.answer, result.problem.components); });
+  return table.take();
 }
 
 }  // namespace

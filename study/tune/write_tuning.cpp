@@ -32,6 +32,16 @@ void add_point(std::string& text, const TuningResult& result) {
   }
 }
 
+void add_damping(std::string& text, const TuningResult& result) {
+  std::string key = "damping";
+  if (result.point.empty()) return;
+  for (const Trace& derived : result.answer.derived) {
+    const std::string value = fmt::format("{} = {:.6g}", derived.name, derived.values.front());
+    add_line(text, key, derived.unit.empty() ? value : value + " " + derived.unit);
+    key.clear();
+  }
+}
+
 void add_window(std::string& text, const TuningResult& result) {
   if (!result.window) {
     add_line(text, "window", "empty");
@@ -72,6 +82,16 @@ void add_first_failure(std::string& text, const TuningResult& result) {
            fmt::format("evaluation {} at {:.6g} {}: {}{}", answer.id,
                        result.first_failure->request.x.front(), variable_of(result).unit,
                        linkstudy::name_of(answer.status), said));
+}
+
+// By name, in the units of the model: {"closure.S.sde.damping": {"value", "unit"}}.
+Json make_derived(const TuningResult& result) {
+  Json derived = Json::object();
+  if (result.point.empty()) return derived;
+  for (const Trace& one : result.answer.derived) {
+    derived[one.name] = {{"value", make_number(one.values.front())}, {"unit", one.unit}};
+  }
+  return derived;
 }
 
 Json make_first_failure(const TuningResult& result) {
@@ -180,6 +200,7 @@ std::string write_text(const TuningResult& result) {
       text, "status",
       std::string(name_of(result.status)) + (result.reason.empty() ? "" : ": " + result.reason));
   add_point(text, result);
+  add_damping(text, result);
   add_window(text, result);
   add_answer(text, result);
   add_first_failure(text, result);
@@ -209,6 +230,7 @@ std::string write_json(const TuningResult& result, const std::string& digest) {
   Json json = {{"status", name_of(result.status)},
                {"reason", result.reason},
                {"parameters", parameters},
+               {"derived", make_derived(result)},
                {"objective", result.point.empty() ? Json(nullptr) : Json(result.objective)},
                {"error", errors},
                {"binding", make_binding(result)},

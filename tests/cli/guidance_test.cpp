@@ -205,7 +205,7 @@ TEST_F(Guidance, A_full_disk_names_the_file) {
 TEST_F(Guidance, Every_table_has_messages_and_no_complete_study_counts_less_than_all) {
   const Ended ended = run("study study.toml -o out");
   EXPECT_EQ(ended.code, 0) << ended.err;
-  const Ended table = run("export out --format csv");
+  const Ended table = run("export out --table evaluations --format csv");
   EXPECT_THAT(table.out.substr(0, 400 + table.out.find("status")), HasSubstr("message"));
   const Ended status = run("status out");
   EXPECT_THAT(status.out,

@@ -179,11 +179,11 @@ TEST_F(Verbs, Study_prints_its_table_and_digest_and_can_be_read_back) {
   EXPECT_EQ(status["done"], 9);  // 1e9 N/m is unstable at all three steps
   EXPECT_EQ(status["running"], false);
   EXPECT_THAT(run("status out").out, HasSubstr("complete"));
-  const Ended csv = run("export out");
+  const Ended csv = run("export out --table evaluations");
   EXPECT_EQ(lines_of(csv.out).size(), 14u);
   EXPECT_THAT(csv.out, HasSubstr("error_max_closure_S_force_x"));
   EXPECT_THAT(csv.out, HasSubstr("crank_speed"));
-  const json rows = json::parse(run("export out --format json").out)["rows"];
+  const json rows = json::parse(run("export out --table evaluations --format json").out)["rows"];
   ASSERT_EQ(rows.size(), 12u);
   // Softer springs are further from the cut joint, and the error falls as 1 / c.
   const double soft = rows[2]["error_max_closure_S_force_y"];
@@ -256,7 +256,7 @@ TEST_F(Verbs, Tune_certifies_a_stiffness_and_replays_it_from_the_journal) {
       "values = [" + std::to_string(stiffness) + ", " + std::to_string(0.95 * stiffness) + "]");
   write("byhand.toml", study);
   ASSERT_EQ(run("study byhand.toml -o byhand").code, 0);
-  const json rows = json::parse(run("export byhand --format json").out)["rows"];
+  const json rows = json::parse(run("export byhand --table evaluations --format json").out)["rows"];
   const auto largest = [&](const json& row) {
     double error = 0.0;
     for (const char* axis : {"x", "y", "z"}) {

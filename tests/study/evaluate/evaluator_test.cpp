@@ -17,6 +17,7 @@ namespace {
 
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
+using Result = linkstudy::Evaluation;
 
 std::string link_text(const char* name, double centre, const char* inertia) {
   return fmt::format(R"(
@@ -109,13 +110,20 @@ class Evaluation : public ::testing::Test {
     if (!evaluator_) throw std::logic_error(said());
   }
 
-  CaseResult evaluate(const std::vector<Value>& point) {
+  Result evaluate(const std::vector<Value>& values) {
+    const Point point{0, values};
     return evaluator_->evaluate({&point, 1}).at(0);
   }
 
-  static std::string bytes_of(const CaseResult& result) { return encode_results({&result, 1}); }
+  std::vector<Result> evaluate_all(const std::vector<std::vector<Value>>& all) {
+    std::vector<Point> points;
+    for (const std::vector<Value>& values : all) points.push_back({0, values});
+    return evaluator_->evaluate(points);
+  }
 
-  double number(const CaseResult& result, const std::string& name) const {
+  static std::string bytes_of(const Result& result) { return to_bytes(WholeEvaluation{result}); }
+
+  double number(const Result& result, const std::string& name) const {
     const std::vector<Response>& responses = evaluator_->responses();
     for (std::size_t i = 0; i < responses.size(); ++i) {
       if (responses[i].name == name) return result.responses.at(i);
@@ -143,7 +151,7 @@ tolerance = 0.01
 
 TEST_F(Evaluation, Of_the_reference_itself_has_no_error_at_all) {
   make(kAgainstItself);
-  const CaseResult result = evaluate({1e-3});
+  const Result result = evaluate({1e-3});
   EXPECT_EQ(result.status, Cause::ok) << result.message;
   for (const char* axis : {"x", "y", "z"}) {
     EXPECT_EQ(number(result, std::string("error_max_closure_C_force_") + axis), 0.0);
@@ -155,21 +163,21 @@ TEST_F(Evaluation, Of_the_reference_itself_has_no_error_at_all) {
 
 TEST_F(Evaluation, Against_a_turned_signal_is_off_by_twice_its_size) {
   make(std::string(kAgainstItself) + "reference_signal = \"-closure.C.force\"\n");
-  const CaseResult result = evaluate({1e-3});
+  const Result result = evaluate({1e-3});
   EXPECT_DOUBLE_EQ(number(result, "error_max_closure_C_force_y"), 2.0);
   EXPECT_DOUBLE_EQ(number(result, "error_rms_closure_C_force_y"), 2.0);
 }
 
 TEST_F(Evaluation, At_half_the_step_differs_by_the_order_of_RK4_only) {
   make(kAgainstItself);
-  const CaseResult half = evaluate({5e-4});
+  const Result half = evaluate({5e-4});
   EXPECT_GT(number(half, "error_max_closure_C_force_y"), 0.0);
   EXPECT_LT(number(half, "error_max_closure_C_force_y"), 1e-6);
 }
 
 TEST_F(Evaluation, Without_a_common_time_grid_is_an_invalid_point) {
   make(kAgainstItself);
-  const CaseResult result = evaluate({0.1 / 1009});  // 1009 is prime and over the limit
+  const Result result = evaluate({0.1 / 1009});  // 1009 is prime and over the limit
   EXPECT_EQ(result.status, Cause::invalid_point);
   EXPECT_THAT(result.message, HasSubstr("no common time grid"));
   EXPECT_EQ(result.responses.size(), evaluator_->responses().size());
@@ -177,7 +185,7 @@ TEST_F(Evaluation, Without_a_common_time_grid_is_an_invalid_point) {
 
 TEST_F(Evaluation, Of_an_impossible_value_is_an_invalid_point_with_its_reason) {
   make(vary_text("link.rod.mass", "1.0"));
-  const CaseResult result = evaluate({-1.0});
+  const Result result = evaluate({-1.0});
   EXPECT_EQ(result.status, Cause::invalid_point);
   EXPECT_THAT(result.message, HasSubstr("mass must be positive"));
 }
@@ -217,7 +225,7 @@ set = { "link.rod.mass" = 10.0 }
 
 TEST_F(Evaluation, Answers_every_load_case_under_its_name) {
   make(with_speed(kTwoLoads));
-  const CaseResult result = evaluate({1e5});
+  const Result result = evaluate({1e5});
   ASSERT_EQ(result.status, Cause::ok) << result.message;
   const double light = number(result, "light_gap_max");
   const double heavy = number(result, "heavy_gap_max");
@@ -231,11 +239,14 @@ TEST_F(Evaluation, Answers_every_load_case_under_its_name) {
             std::max(number(result, "light_omega_max"), number(result, "heavy_omega_max")));
   EXPECT_EQ(evaluator_->worst(RunNumber::step_limit, result.responses),
             std::min(number(result, "light_step_limit"), number(result, "heavy_step_limit")));
+  ASSERT_EQ(result.derived.size(), 4u);
+  EXPECT_EQ(result.derived[3].name, "heavy_closure.C.sde.damping");
+  EXPECT_GT(result.derived[3].values[0], result.derived[1].values[0]);  // more effective mass
 }
 
 TEST_F(Evaluation, Keeps_traces_that_end_with_the_last_response) {
   make(with_speed(kTwoLoads));
-  const CaseResult result = evaluate({1e5});
+  const Result result = evaluate({1e5});
   ASSERT_EQ(result.traces.size(), 2u);
   EXPECT_EQ(result.traces[1].load_case, "heavy");
   const std::vector<Trace>& traces = result.traces[1].traces;
@@ -249,7 +260,7 @@ TEST_F(Evaluation, Keeps_traces_that_end_with_the_last_response) {
 
 TEST_F(Evaluation, Names_the_load_case_that_failed_and_keeps_what_is_known) {
   make(with_speed(kTwoLoads));
-  const CaseResult result = evaluate({1e12});
+  const Result result = evaluate({1e12});
   EXPECT_NE(result.status, Cause::ok);
   EXPECT_THAT(result.message, HasSubstr("load case 'light'"));
   EXPECT_TRUE(std::isnan(number(result, "light_error_max_closure_C_force_x")));
@@ -260,7 +271,7 @@ TEST_F(Evaluation, Names_the_load_case_that_failed_and_keeps_what_is_known) {
 TEST_F(Evaluation, Ends_at_its_time_limit) {
   make(kWeightless + vary_text("simulation.end_time", "1e5"));
   evaluator_->set_timeout(0.05);
-  const CaseResult result = evaluate({1e5});
+  const Result result = evaluate({1e5});
   EXPECT_EQ(result.status, Cause::timeout) << result.message;
 }
 
@@ -271,9 +282,9 @@ TEST_F(Evaluation, Is_cancelled_between_blocks_of_steps_and_not_tried_again) {
     evaluator_->cancel();
   });
   const std::vector<std::vector<Value>> points = {{1e5, 1.0}, {1e5, 2.0}};
-  const std::vector<CaseResult> results = evaluator_->evaluate(points);
+  const std::vector<Result> results = evaluate_all(points);
   other.join();
-  for (const CaseResult& result : results) {
+  for (const Result& result : results) {
     EXPECT_EQ(result.status, Cause::cancelled) << result.message;
     EXPECT_EQ(result.attempts, 1u);
   }
@@ -381,7 +392,7 @@ std::vector<std::vector<Value>> mixed_points() {
 TEST_F(Evaluation, Of_a_point_is_the_same_to_the_last_bit_alone_and_beside_others) {
   make(with_speed(kMixed));
   const std::vector<std::vector<Value>> points = mixed_points();
-  const std::vector<CaseResult> together = evaluator_->evaluate(points);
+  const std::vector<Result> together = evaluate_all(points);
   ASSERT_EQ(together.size(), points.size());
   std::map<Cause, int> causes;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -398,7 +409,7 @@ TEST_F(Evaluation, Of_a_point_is_the_same_to_the_last_bit_alone_and_beside_other
 TEST_F(Evaluation, That_throws_is_tried_again_and_disturbs_no_other) {
   make(vary_text("simulation.end_time", "0.1") + vary_text("link.rod.mass", "1.0"));
   const std::vector<std::vector<Value>> points = {{0.1, 1.0}, {1e15, 1.0}, {0.1, 2.0}};
-  const std::vector<CaseResult> results = evaluator_->evaluate(points);
+  const std::vector<Result> results = evaluate_all(points);
   EXPECT_EQ(results[1].status, Cause::exception) << results[1].message;
   EXPECT_EQ(results[1].attempts, 3u);
   for (const std::size_t i : {0, 2}) {
@@ -412,33 +423,40 @@ TEST_F(Evaluation, Side_by_side_ends_at_one_time_limit_and_spares_those_that_are
   make(kWeightless + vary_text("simulation.end_time", "0.1") + vary_text("link.rod.mass", "1.0"));
   evaluator_->set_timeout(0.3);
   const std::vector<std::vector<Value>> points = {{1e5, 1.0}, {0.1, 1.0}, {1e5, 2.0}, {0.1, 2.0}};
-  const std::vector<CaseResult> results = evaluator_->evaluate(points);
+  const std::vector<Result> results = evaluate_all(points);
   EXPECT_EQ(results[0].status, Cause::timeout);
   EXPECT_EQ(results[2].status, Cause::timeout);
   EXPECT_EQ(results[1].status, Cause::ok) << results[1].message;
   EXPECT_EQ(results[3].status, Cause::ok) << results[3].message;
 }
 
-TEST(CaseBytes, Come_back_as_they_went) {
+TEST(EvaluationBytes, Come_back_as_they_went) {
   const std::vector<Point> points = {{7, {1.5, std::string("cut"), -0.0}}, {9, {}}};
-  const std::vector<Point> read = decode_points(encode_points(points));
+  const auto read = from_bytes<std::vector<Point>>(to_bytes(points));
   ASSERT_EQ(read.size(), 2u);
   EXPECT_EQ(read[0].id, 7u);
   EXPECT_EQ(read[0].values, points[0].values);
   EXPECT_EQ(read[1].id, 9u);
-  CaseResult result;
+  Result result;
+  result.point = points[0];
   result.status = Cause::diverged;
   result.message = "diverged at t = 1 s";
   result.responses = {1.0, std::nan(""), 3.0};
+  result.derived = {{"closure.C.sde.damping", "N s/m", {7.0}}};
   result.traces = {{"fast", {{"time", "s", {0.0, 1.0}}, {"joint.A.q", "rad", {2.0, 3.0}}}}};
   result.attempts = 2;
   result.host = "n1";
-  const std::vector<CaseResult> results = {result, CaseResult()};
-  const std::string bytes = encode_results(results);
-  EXPECT_EQ(encode_results(decode_results(bytes)), bytes);
-  EXPECT_EQ(decode_results(bytes)[0].traces[0].traces[1].values[1], 3.0);
-  EXPECT_EQ(decode_results(bytes)[1].status, Cause::ok);
-  EXPECT_THROW(decode_results(bytes.substr(0, bytes.size() - 3)), std::out_of_range);
+  using Results = std::vector<WholeEvaluation>;
+  const std::string bytes = to_bytes(Results{{result}, {Result()}});
+  const auto results = from_bytes<Results>(bytes);
+  EXPECT_EQ(to_bytes(results), bytes);
+  EXPECT_EQ(results[0].evaluation.traces[0].traces[1].values[1], 3.0);
+  EXPECT_EQ(results[0].evaluation.derived[0].values[0], 7.0);
+  EXPECT_EQ(results[1].evaluation.status, Cause::ok);
+  EXPECT_THROW(from_bytes<Results>(bytes.substr(0, bytes.size() - 3)), std::out_of_range);
+  std::string wrong = bytes;
+  wrong[wrong.find("diverged at") - 9] = 99;  // the cause, before the length of the message
+  EXPECT_THROW(from_bytes<Results>(wrong), std::out_of_range);
 }
 
 }  // namespace

@@ -61,7 +61,7 @@ class FallingMass : public ::testing::Test {
   }
 
   std::vector<double> evaluate(Evaluator& evaluator, double step) {
-    const std::vector<Value> point = {step};
+    const Point point{0, {step}};
     return evaluator.evaluate({&point, 1}).at(0).responses;
   }
 

@@ -50,11 +50,7 @@ TEST(Digest, SHA_256_gives_the_published_vectors) {
 // The stream written out by hand from the description in bytes.h.
 TEST(Digest, The_encoding_is_little_endian_with_lengths) {
   ByteWriter out;
-  out.put_u8(0xfe);
-  out.put_u32(0x01020304u);
-  out.put_i64(-2);
-  out.put_f64(-0.5);
-  out.put_text("ab");
+  out(std::uint8_t{0xfe}, std::uint32_t{0x01020304u}, std::int64_t{-2}, -0.5, std::string("ab"));
   const std::string expected(
       "\xfe\x04\x03\x02\x01\xfe\xff\xff\xff\xff\xff\xff\xff"
       "\x00\x00\x00\x00\x00\x00\xe0\xbf\x02\x00\x00\x00\x00\x00\x00\x00"
@@ -62,13 +58,13 @@ TEST(Digest, The_encoding_is_little_endian_with_lengths) {
       31);
   EXPECT_EQ(out.bytes(), expected);
   ByteReader in(out.bytes());
-  EXPECT_EQ(in.get_u8(), 0xfe);
-  EXPECT_EQ(in.get_u32(), 0x01020304u);
-  EXPECT_EQ(in.get_i64(), -2);
-  EXPECT_EQ(in.get_f64(), -0.5);
-  EXPECT_EQ(in.get_text(), "ab");
+  EXPECT_EQ(in.read<std::uint8_t>(), 0xfe);
+  EXPECT_EQ(in.read<std::uint32_t>(), 0x01020304u);
+  EXPECT_EQ(in.read<std::int64_t>(), -2);
+  EXPECT_EQ(in.read<double>(), -0.5);
+  EXPECT_EQ(in.read<std::string>(), "ab");
   EXPECT_TRUE(in.at_end());
-  EXPECT_THROW(in.get_u8(), std::out_of_range);
+  EXPECT_THROW(in.read<std::uint8_t>(), std::out_of_range);
 }
 
 TEST(Digest, The_order_of_arrival_does_not_matter) {

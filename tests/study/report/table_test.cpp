@@ -1,4 +1,4 @@
-#include "study/report/table.h"
+#include "study/report/write_table.h"
 
 #include <gmock/gmock.h>
 
@@ -6,8 +6,6 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
-
-#include "study/report/results_table.h"
 
 namespace linkstudy {
 namespace {
@@ -17,15 +15,22 @@ using testing::HasSubstr;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
+Column numbers(const std::string& name, const std::string& unit, std::vector<double> values,
+               const char* format = "{:.6g}") {
+  Column column{name, unit, "", "", std::move(values)};
+  column.format = format;
+  return column;
+}
+
+Column words(const std::string& name, std::vector<std::string> values) {
+  return {name, "", "", "", std::move(values)};
+}
+
 Table sample() {
   return {"stiffness ladder",
-          {{"k", "N/m", "{:.3g}", Align::right},
-           {"error", "", "{:.2f}", Align::right},
-           {"cause", "", "{}", Align::left}},
-          {{1e6, 0.1, std::string("ok")},
-           {25.0, kNan, std::string("diverged, \"early\"\nh|2 \u03c9_x")},
-           {-2.5e-5, {}, std::string()},
-           {kInf}}};
+          {numbers("k", "N/m", {1e6, 25.0, -2.5e-5, kInf}, "{:.3g}"),
+           numbers("error", "", {0.1, kNan, kNan, kNan}, "{:.2f}"),
+           words("cause", {"ok", "diverged, \"early\"\nh|2 \u03c9_x", "", ""})}};
 }
 
 TEST(Table, Text_is_aligned_and_short) {
@@ -35,9 +40,9 @@ TEST(Table, Text_is_aligned_and_short) {
             "     N/m\n"
             "--------  -----  -------------------------\n"
             "   1e+06   0.10  ok\n"
-            "      25    nan  diverged, \"early\" h|2 \u03c9_x\n"
+            "      25      -  diverged, \"early\" h|2 \u03c9_x\n"
             "-2.5e-05      -\n"
-            "     inf      -  -\n");
+            "     inf      -\n");
 }
 
 TEST(Table, CSV_keeps_17_digits_and_quotes_as_RFC_4180_says) {
@@ -45,18 +50,14 @@ TEST(Table, CSV_keeps_17_digits_and_quotes_as_RFC_4180_says) {
             "# units: N/m,,\n"
             "k,error,cause\n"
             "1000000,0.10000000000000001,ok\n"
-            "25,nan,\"diverged, \"\"early\"\"\nh|2 \u03c9_x\"\n"
+            "25,,\"diverged, \"\"early\"\"\nh|2 \u03c9_x\"\n"
             "-2.5000000000000001e-05,,\n"
             "inf,,\n");
 }
 
 TEST(Table, CSV_numbers_read_back_to_the_same_bits) {
-  Table table{"", {{"x", "", "{:.3g}", Align::right}}, {}};
-  std::vector<double> values = {1.0 / 3.0, -0.1, 5e-324, 1.7976931348623157e308, 0.1 + 0.2};
-  for (double value : values) {
-    table.rows.push_back({value});
-  }
-  std::istringstream lines(csv_of(table));
+  const std::vector<double> values = {1.0 / 3.0, -0.1, 5e-324, 1.7976931348623157e308, 0.1 + 0.2};
+  std::istringstream lines(csv_of({"", {numbers("x", "", values, "{:.3g}")}}));
   std::string line;
   std::getline(lines, line);
   std::getline(lines, line);
@@ -72,23 +73,50 @@ TEST(Table, Markdown_keeps_its_cells_apart) {
             "| k [N/m] | error | cause |\n"
             "| ---: | ---: | :--- |\n"
             "| 1e+06 | 0.10 | ok |\n"
-            "| 25 | nan | diverged, \"early\" h\\|2 \u03c9\\_x |\n"
+            "| 25 |  | diverged, \"early\" h\\|2 \u03c9\\_x |\n"
             "| -2.5e-05 |  |  |\n"
             "| inf |  |  |\n");
 }
 
-TEST(Table, LaTeX_prints_powers_of_ten_and_escapes_the_rest) {
+// Numbers as siunitx reads them, room for the digits there are, units in the head, the rest
+// escaped.
+TEST(Table, LaTeX_is_a_tabular_of_booktabs_and_siunitx) {
   Table table = sample();
   table.columns[2].name = "50% of_m^2";
+  table.columns[1].unit = "N s/m";
   EXPECT_EQ(latex_of(table),
-            "\\begin{tabular}{rrl}\n\\toprule\n"
-            "k & error & 50\\% of\\_m\\textasciicircum{}2 \\\\\n"
-            "N/m &  &  \\\\\n\\midrule\n"
-            "$1 \\cdot 10^{6}$ & $0.10$ & ok \\\\\n"
-            "$25$ & nan & diverged, \"early\" h|2 \u03c9\\_x \\\\\n"
-            "$-2.5 \\cdot 10^{-5}$ &  &  \\\\\n"
-            "$\\infty$ &  &  \\\\\n"
+            "% \\usepackage{booktabs, siunitx}\n"
+            "\\begin{tabular}{ S[table-format=-1.1e-1] S[table-format=1.2] l }\n\\toprule\n"
+            "{k} & {error} & 50\\% of\\_m\\textasciicircum{}2 \\\\\n"
+            "{\\si{N/m}} & {\\si{N.s/m}} &  \\\\\n\\midrule\n"
+            "1.0e6 & 0.10 & ok \\\\\n"
+            "2.5e1 &  & diverged, \"early\" h|2 \u03c9\\_x \\\\\n"
+            "-2.5e-5 &  &  \\\\\n"
+            "{$\\infty$} &  &  \\\\\n"
             "\\bottomrule\n\\end{tabular}\n");
+}
+
+// One column, one notation: the digits are those of the column's form.
+TEST(Table, LaTeX_has_powers_of_ten_in_a_whole_column_or_not_at_all) {
+  const Table table{"",
+                    {numbers("a", "", {316228.0, 0.00876, 0.0, -2e10, 10.0}),
+                     numbers("b", "", {117.0, 21.8, 0.0586, -1.0, 0.0})}};
+  EXPECT_THAT(latex_of(table), HasSubstr("S[table-format=-1.5e-2] S[table-format=-3.4] }"));
+  EXPECT_THAT(latex_of(table), HasSubstr("\\midrule\n"
+                                         "3.16228e5 & 117 \\\\\n"
+                                         "8.76000e-3 & 21.8 \\\\\n"
+                                         "0.00000 & 0.0586 \\\\\n"
+                                         "-2.00000e10 & -1 \\\\\n"
+                                         "1.00000e1 & 0 \\\\\n"));
+}
+
+TEST(Table, LaTeX_breaks_long_names_over_lines_of_the_head) {
+  const Table table{"", {numbers("closure.S.sde.stiffness", "N/m", {1e6}), words("end", {"ok"})}};
+  EXPECT_THAT(latex_of(table), HasSubstr("\\toprule\n"
+                                         "{closure.S.} &  \\\\\n"
+                                         "{sde.} &  \\\\\n"
+                                         "{stiffness} & end \\\\\n"
+                                         "{\\si{N/m}} &  \\\\\n"));
 }
 
 TEST(Table, JSON_is_valid_and_keeps_the_order_and_the_bits) {
@@ -102,105 +130,82 @@ TEST(Table, JSON_is_valid_and_keeps_the_order_and_the_bits) {
   EXPECT_TRUE(json["rows"][1]["error"].is_null());
   EXPECT_TRUE(json["rows"][2]["error"].is_null());
   EXPECT_EQ(json["rows"][1]["cause"], "diverged, \"early\"\nh|2 \u03c9_x");
-  Table broken{"\xff", {}, {}};
+  Table broken{"\xff"};
   EXPECT_TRUE(nlohmann::json::accept(json_of(broken)));
 }
 
 TEST(Table, Without_rows_and_without_columns_every_form_can_be_written) {
-  for (const char* name : {"text", "csv", "md", "json", "latex"}) {
-    EXPECT_FALSE(
-        write_table({"t", {{"a", "m", "{:.1f}", Align::right}}, {}}, table_format(name)).empty());
-    EXPECT_FALSE(write_table({}, table_format(name)).empty());
+  for (const TableFormat& format : table_formats()) {
+    EXPECT_FALSE(format.write({"t", {numbers("a", "m", {})}}, 80).empty()) << format.name;
+    EXPECT_FALSE(format.write({}, 80).empty()) << format.name;
+    EXPECT_EQ(&table_format(format.name), &format);
   }
   EXPECT_THROW(table_format("xls"), std::invalid_argument);
 }
 
-TEST(Table, A_row_that_is_too_long_is_refused) {
-  const Table table{"t", {{"a", "", "{}", Align::left}}, {{1.0, 2.0}}};
-  for (const char* name : {"text", "csv", "md", "json", "latex"}) {
-    EXPECT_THROW(write_table(table, table_format(name)), std::invalid_argument) << name;
+TEST(Table, Columns_of_unequal_lengths_are_refused) {
+  const Table table{"t", {numbers("a", "", {1.0}), numbers("b", "", {1.0, 2.0})}};
+  for (const TableFormat& format : table_formats()) {
+    EXPECT_THROW(format.write(table, 80), std::invalid_argument) << format.name;
   }
 }
 
-StudyResults some_results() {
-  StudyResults results;
-  results.description = {"ladder",
-                         "study",
-                         0,
-                         {{"closure.S.sde.stiffness", "N/m", ""}, {"closure.S.model", "", ""}},
-                         {{"gap", "m", ""}}};
-  Evaluation good;
-  good.point = {0, {1e4, std::string("sde")}};
-  good.responses = {0.5};
-  good.host = "n1";
-  Evaluation bad = good;
-  bad.point.id = 1;
-  bad.status = Cause::timeout;
-  bad.responses.clear();
-  bad.message = "after 5 s";
-  results.evaluations = {bad, good};
-  return results;
+TEST(Table, Counts_and_flags_are_shown_as_they_are) {
+  const Table table{
+      "",
+      {{"side", "", "", "", std::vector<std::uint8_t>{1, 0}, {"feasible", "too_soft"}},
+       {"round", "", "", "", std::vector<std::int64_t>{7, -1}}}};
+  EXPECT_EQ(text_of(table),
+            "side      round\n"
+            "--------  -----\n"
+            "too_soft      7\n"
+            "feasible     -1\n");
+  EXPECT_EQ(csv_of(table), "# units: ,\nside,round\ntoo_soft,7\nfeasible,-1\n");
+  EXPECT_EQ(nlohmann::json::parse(json_of(table))["rows"][0]["side"], "too_soft");
 }
 
-TEST(ResultsTable, Shows_inputs_outputs_and_causes_by_id) {
-  EXPECT_EQ(text_of(results_table(some_results())),
-            "ladder\n"
-            "evaluation  closure.S.sde.stiffness  closure.S.model  gap  status   message\n"
-            "                                N/m                     m\n"
-            "----------  -----------------------  ---------------  ---  -------  ---------\n"
-            "         0                    10000  sde              0.5  ok\n"
-            "         1                    10000  sde              nan  timeout  after 5 s\n");
+std::size_t longest_line(const std::string& text) {
+  std::istringstream lines(text);
+  std::size_t most = 0;
+  for (std::string line; std::getline(lines, line);) most = std::max(most, line.size());
+  return most;
 }
 
-TEST(ResultsTable, Has_the_column_of_messages_when_nothing_failed_too) {
-  StudyResults results = some_results();
-  results.evaluations.erase(results.evaluations.begin());
-  const std::string text = text_of(results_table(results));
-  EXPECT_THAT(text, testing::HasSubstr("message"));
-  EXPECT_THAT(text, testing::Not(HasSubstr("parent")));
-}
-
-TEST(ResultsTable, Gives_the_columns_asked_for_in_their_order) {
-  EXPECT_EQ(csv_of(results_table(some_results(), {{"gap", "host", "evaluation", "attempts"}})),
-            "# units: m,,,\n"
-            "gap,host,evaluation,attempts\n"
-            "0.5,n1,0,1\n"
-            "nan,n1,1,1\n");
-}
-
-TEST(ResultsTable, An_unknown_column_is_refused_with_the_names_there_are) {
-  try {
-    results_table(some_results(), {{"gapp"}});
-    FAIL();
-  } catch (const std::invalid_argument& error) {
-    EXPECT_THAT(error.what(), HasSubstr("'gapp'"));
-    EXPECT_THAT(error.what(), HasSubstr("closure.S.model, gap, status"));
+TEST(TableWidth, Names_go_over_several_lines_before_anything_is_left_out) {
+  const Table table{"",
+                    {numbers("closure.S.sde.stiffness", "N/m", {31622.8, 1e5}),
+                     numbers("error_max_closure_S_force", "%", {58.9, 21.8}),
+                     words("status", {"ok", "diverged"})}};
+  const std::string text = text_of(table, 40);
+  EXPECT_LE(longest_line(text), 40u) << text;
+  for (const char* part : {"stiffness", "force", "status", "31622.8", "diverged"}) {
+    EXPECT_THAT(text, HasSubstr(part));
   }
+  EXPECT_THAT(text, testing::Not(HasSubstr("columns fit")));
+  EXPECT_EQ(text_of(table, 200), text_of(table)) << "what fits is left alone";
 }
 
-TEST(ResultsTable, Stored_groups_become_tables_with_flags_as_words) {
-  const DataGroup scan{
-      "scan",
-      {{"k", "N/m", "", "parameter", std::vector<double>{1e4, 1e5}, {}},
-       {"side", "", "", "side", std::vector<std::uint8_t>{1, 0}, {"feasible", "too_soft"}},
-       {"round", "", "", "round", std::vector<std::int64_t>{7, -1}, {}}},
-      {},
-      {}};
-  EXPECT_EQ(text_of(table_of(scan)),
-            "scan\n"
-            "     k  side      round\n"
-            "   N/m\n"
-            "------  --------  -----\n"
-            " 10000  too_soft      7\n"
-            "100000  feasible     -1\n");
-  EXPECT_EQ(table_of(scan, {"side"}).columns.size(), 1u);
+TEST(TableWidth, One_row_stands_upright) {
+  const Table table{"answer",
+                    {words("parameter", {"closure.S.sde.stiffness"}),
+                     numbers("value", "N/m", {812945.0}), numbers("margin", "", {1.96})}};
+  EXPECT_EQ(text_of(table, 30),
+            "answer\n"
+            "parameter  closure.S.sde.stiffness\n"
+            "value      812945 N/m\n"
+            "margin     1.96\n");
 }
 
-TEST(ResultsTable, Starts_and_resumes_have_their_rows) {
-  StudyResults results = some_results();
-  results.provenance = {{"start", 1.7e9, 2, 3, "n1", "0.1.0", "abc", "linkstudy study", "avx2", 4}};
-  EXPECT_THAT(csv_of(provenance_table(results)),
-              HasSubstr("start,1700000000,2,3,n1,0.1.0,abc,avx2,4,,0,linkstudy study"));
+TEST(TableWidth, Long_texts_are_shortened_then_columns_left_out_with_a_note) {
+  const std::string tale(90, 'x');
+  Table table{"", {numbers("id", "", {0, 1}), words("tale", {tale, "short"})}};
+  const std::string text = text_of(table, 60);
+  EXPECT_LE(longest_line(text), 60u) << text;
+  EXPECT_THAT(text, HasSubstr("xxx..."));
+  for (int i = 0; i < 9; ++i) table.columns.push_back(numbers("more", "", {1e-10, 2.0}));
+  const std::string cut = text_of(table, 60);
+  EXPECT_LE(longest_line(cut), 72u) << cut;  // the note itself
+  EXPECT_THAT(cut, HasSubstr(" of 11 columns fit; export --format csv has all"));
 }
 
 }  // namespace

@@ -11,8 +11,8 @@ namespace {
 
 TEST(ReservedNames, Are_those_of_all_columns_of_a_table_of_evaluations) {
   std::vector<std::string> names;
-  for (const DataGroup& group : {study_group({}, {}), runtime_group({})}) {
-    for (const DataColumn& column : group.columns) {
+  for (const Table& group : {study_group({}, {}), runtime_group({})}) {
+    for (const Column& column : group.columns) {
       if (!std::ranges::count(names, column.name)) names.push_back(column.name);
     }
   }

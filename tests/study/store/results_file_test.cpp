@@ -75,6 +75,8 @@ TEST_F(ResultsFile, Gives_the_same_results_back) {
   EXPECT_EQ(read.provenance[1].command, "linkstudy study");
   EXPECT_EQ(read.provenance[0].simd, "avx2");
   EXPECT_EQ(read.provenance[1].lanes, 8u);
+  EXPECT_EQ(read.provenance[1].job, "12_3");
+  EXPECT_EQ(read.provenance[1].restart, 1u);
   ASSERT_EQ(read.texts.size(), 2u);
   EXPECT_EQ(read.texts[0].text, written.texts[0].text);
 }
@@ -83,10 +85,53 @@ TEST_F(ResultsFile, Keeps_tunings_of_any_shape) {
   write_results(path(), sample::results());
   const StudyResults read = read_results(path());
   ASSERT_EQ(read.tunings.size(), 1u);
-  const DataGroup expected = sample::tuning();
+  const Table expected = sample::tuning();
   EXPECT_EQ(read.tunings[0].name, expected.name);
   EXPECT_THAT(read.tunings[0].attributes, testing::UnorderedElementsAreArray(expected.attributes));
-  EXPECT_EQ(read.tunings[0].groups, expected.groups);
+  EXPECT_EQ(read.tunings[0].parts, expected.parts);
+}
+
+// As a session journals them: what is derived before its evaluation, a tuning as two texts.
+TEST_F(ResultsFile, Has_the_same_derived_numbers_and_tunings_by_journal_and_by_file) {
+  const StudyResults written = sample::results();
+  Table tuning = sample::tuning();
+  tuning.attributes = {{"certificate", std::string("{}")}};
+  {
+    Journal journal(dir_, sample::kInputSha256, OpenMode::resume);
+    journal.append(written.description);
+    for (const std::size_t i : {2, 0, 3, 1}) {
+      const Evaluation& one = written.evaluations[i];
+      if (!one.derived.empty()) journal.append(derived_set(one));
+      journal.append(one);
+    }
+    for (const NamedText& text : tuning_texts(tuning)) journal.append(text);
+  }
+  const StudyResults found = read_stored(dir_);
+  write_results(path(), found);
+  for (const StudyResults& read : {found, read_stored(path())}) {
+    ASSERT_EQ(read.evaluations.size(), 4u);
+    for (std::size_t i = 0; i < 4; ++i) {
+      linkstudy::expect_same(read.evaluations[i], written.evaluations[i]);
+      expect_same_derived(read.evaluations[i], written.evaluations[i]);
+    }
+    EXPECT_TRUE(read.traces.empty());
+    ASSERT_EQ(read.tunings.size(), 1u);
+    EXPECT_EQ(read.tunings[0], tuning);
+  }
+}
+
+// Journals of older programs have the JSON object of a tuning only.
+TEST_F(ResultsFile, Lends_a_directory_the_tables_of_a_tuning_that_its_journal_lacks) {
+  const StudyResults results = sample::results();
+  {
+    Journal journal(dir_, sample::kInputSha256, OpenMode::resume);
+    journal.append(results.description);
+    journal.append(NamedText{"tuning/S", "{}"});
+  }
+  write_results(path(), results);
+  EXPECT_EQ(read_stored(dir_).tunings.at(0).parts, sample::tuning().parts);
+  std::filesystem::remove(path());
+  EXPECT_TRUE(read_stored(dir_).tunings.at(0).parts.empty());
 }
 
 TEST_F(ResultsFile, Is_the_same_whether_it_comes_from_memory_or_from_the_journal) {
@@ -111,7 +156,7 @@ TEST_F(ResultsFile, Is_the_same_whether_it_comes_from_memory_or_from_the_journal
   EXPECT_EQ(read.git_revision, written.git_revision);
   ASSERT_EQ(read.tunings.size(), 1u);
   EXPECT_EQ(read.tunings[0].attributes,
-            (std::vector<DataAttribute>{{"certificate", std::string("{\"C0\": true}")}}));
+            (std::vector<Attribute>{{"certificate", std::string("{\"C0\": true}")}}));
 }
 
 TEST_F(ResultsFile, Of_a_study_without_rows_opens) {
@@ -171,7 +216,7 @@ TEST_F(ResultsFile, Texts_become_valid_utf8) {
 TEST_F(ResultsFile, What_is_no_results_file_is_refused) {
   put(path(), "not HDF5 at all");
   EXPECT_THAT(message_of<StoreError>([&] { read_results(path()); }), HasSubstr("results.h5"));
-  DataGroup other;
+  Table other;
   other.attributes = {{"format", std::string("something else")}};
   write_group_file(path(), other);
   EXPECT_THAT(message_of<StoreError>([&] { read_results(path()); }),

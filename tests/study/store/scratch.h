@@ -64,4 +64,14 @@ inline void expect_same(const Evaluation& a, const Evaluation& b) {
   EXPECT_EQ(a.host, b.host);
 }
 
+// What records of evaluations do not hold.
+inline void expect_same_derived(const Evaluation& a, const Evaluation& b) {
+  EXPECT_EQ(a.derived.size(), b.derived.size());
+  for (std::size_t i = 0; i < std::min(a.derived.size(), b.derived.size()); ++i) {
+    EXPECT_EQ(a.derived[i].name, b.derived[i].name);
+    EXPECT_EQ(a.derived[i].unit, b.derived[i].unit);
+    EXPECT_EQ(a.derived[i].values, b.derived[i].values);
+  }
+}
+
 }  // namespace linkstudy

@@ -30,6 +30,7 @@ inline Evaluation evaluation(std::uint64_t id) {
   evaluation.wall_s = 0.01 * x;
   evaluation.rank = static_cast<std::int32_t>(id % 3);
   evaluation.host = "n1";
+  if (id % 2 == 0) evaluation.derived = {{"closure.S.sde.damping", "N s/m", {10.0 * x}}};
   return evaluation;
 }
 
@@ -54,28 +55,28 @@ inline TraceSet traces(const std::string& name, std::int64_t evaluation, std::si
   return set;
 }
 
-inline DataGroup tuning() {
-  DataGroup scan{"scan",
-                 {{"closure.S.sde.stiffness",
-                   "N/m",
-                   "stiffness",
-                   "parameter",
-                   std::vector<double>{1e4, 1e5, 1e6},
-                   {}},
-                  {"error.closure.S.force",
-                   "",
-                   "error over tolerance",
-                   "error",
-                   std::vector<double>{4.0, 0.4, std::numeric_limits<double>::infinity()},
-                   {}},
-                  {"side",
-                   "",
-                   "side of failure",
-                   "side",
-                   std::vector<std::uint8_t>{1, 0, 2},
-                   {"feasible", "too_soft", "step_too_coarse"}}},
-                 {},
-                 {}};
+inline Table tuning() {
+  Table scan{"scan",
+             {{"closure.S.sde.stiffness",
+               "N/m",
+               "stiffness",
+               "parameter",
+               std::vector<double>{1e4, 1e5, 1e6},
+               {}},
+              {"error.closure.S.force",
+               "",
+               "error over tolerance",
+               "error",
+               std::vector<double>{4.0, 0.4, std::numeric_limits<double>::infinity()},
+               {}},
+              {"side",
+               "",
+               "side of failure",
+               "side",
+               std::vector<std::uint8_t>{1, 0, 2},
+               {"feasible", "too_soft", "step_too_coarse"}}},
+             {},
+             {}};
   return {"S",
           {},
           {{"C0", std::string("feasible at 2.5e4 N/m and at half the step")},

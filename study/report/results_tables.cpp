@@ -1,0 +1,113 @@
+#include "study/report/results_tables.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "core/topology/nearest_name.h"
+#include "study/config/input_error.h"
+#include "study/record/digest.h"
+#include "study/report/choose_table.h"
+#include "study/report/summary_table.h"
+#include "study/store/results_tree.h"
+
+namespace linkstudy {
+namespace {
+
+using Made = std::optional<Table>;
+
+Table titled(Table table, const StudyResults& results) {
+  table.name = results.description.name;
+  table.attributes.clear();
+  return table;
+}
+
+// A part of the first tuning.
+Made tuning_part(const StudyResults& results, std::string_view name) {
+  if (results.tunings.empty()) return std::nullopt;
+  const Table* found = find_part(results.tunings.front(), name);
+  return found == nullptr ? Made() : Made(titled(*found, results));
+}
+
+constexpr const char* kNotTuned = "only a tune that has its answer holds it";
+
+constexpr std::array<ResultsTable, 9> kTables = {{
+    {"summary", "what varies, the worst errors in percent, responses, status; by load case",
+     [](const StudyResults& r) { return Made(summary_table(r)); }},
+    {"evaluations", "every parameter and response of every evaluation, and why it ended",
+     [](const StudyResults& r) { return Made(evaluations_table(r)); }},
+    {"traces", "time histories, and their differences from the reference", traces_table,
+     "these results hold no time histories; ask for them with [[trace]]"},
+    {"tuning", "the answer, its damping, window, margin and verdict",
+     [](const StudyResults& r) { return tuning_part(r, "result"); }, kNotTuned},
+    {"components", "errors and tolerances of the matched components at the answer",
+     [](const StudyResults& r) { return tuning_part(r, "components"); }, kNotTuned},
+    {"scan", "every value tried at the base step, and on which side it fails",
+     [](const StudyResults& r) { return tuning_part(r, "scan"); }, kNotTuned},
+    {"certificate", "the claims about the answer and what they rest on",
+     [](const StudyResults& r) { return tuning_part(r, "certificate"); }, kNotTuned},
+    {"runtime", "wall time, rank and host of every evaluation",
+     [](const StudyResults& r) {
+       return Made(titled(runtime_group(latest_by_id(r.evaluations)), r));
+     }},
+    {"provenance", "the starts and resumes: when, where, by which program",
+     [](const StudyResults& r) { return Made(titled(provenance_group(r.provenance, {}), r)); }},
+}};
+
+bool has_parent(const Column& column) {
+  const auto& ids = std::get<std::vector<std::int64_t>>(column.values);
+  return std::ranges::any_of(ids, [](std::int64_t id) { return id >= 0; });
+}
+
+}  // namespace
+
+std::span<const ResultsTable> results_tables() {
+  return kTables;
+}
+
+Table list_tables(const StudyResults& results) {
+  std::vector<std::string> names;
+  std::vector<std::string> holds;
+  std::vector<std::int64_t> rows;
+  for (const ResultsTable& table : kTables) {
+    const Made made = table.make(results);
+    if (!made) continue;
+    names.emplace_back(table.name);
+    rows.push_back(static_cast<std::int64_t>(row_count(*made)));
+    holds.emplace_back(table.holds);
+  }
+  return {"",
+          {{"table", "", "", "", names}, {"rows", "", "", "", rows}, {"holds", "", "", "", holds}}};
+}
+
+Table make_results_table(const StudyResults& results, std::string_view name) {
+  std::vector<std::string> names;
+  for (const ResultsTable& table : kTables) {
+    const bool is_it = table.name == name;
+    Made made = table.make(results);
+    if (is_it && made) return std::move(*made);
+    if (is_it) throw UsageError(fmt::format("there is no table '{}': {}", name, table.lacks));
+    if (made) names.emplace_back(table.name);
+  }
+  throw UsageError(
+      fmt::format("there is no table '{}'; {}", name, suggest_name(std::string(name), names)));
+}
+
+Table evaluations_table(const StudyResults& results) {
+  const std::vector<Evaluation> evaluations = latest_by_id(results.evaluations);
+  Table table = titled(study_group(results.description, evaluations), results);
+  for (Column& column : table.columns) {
+    const bool is_aside =
+        column.role == "attempts" || (column.role == "parent" && !has_parent(column));
+    if (is_aside) column.role = kOnDemand;
+  }
+  const Table runtime = runtime_group(evaluations);
+  for (std::size_t i = 1; i < runtime.columns.size(); ++i) {
+    table.columns.push_back(runtime.columns[i]);
+    table.columns.back().role = kOnDemand;
+  }
+  return table;
+}
+
+}  // namespace linkstudy
