@@ -139,6 +139,14 @@ struct JointFrictionStructure {
   int z;
 };
 
+// A joint whose reaction is shared with the other joints of its loops.
+struct LoopJoint {
+  int group = 0;       // loops that have joints in common
+  int body = -1;       // that a tree joint carries, or
+  int closure = -1;    // the closure
+  bool counts = true;  // false inside a flexible link: takes what the others leave
+};
+
 struct LoadStructure {
   LoadType type;
   int v = -1;     // drive, resistance
@@ -172,6 +180,10 @@ struct Mechanism {
 
   // Of what is only looked at: chosen points. The step loop does not know them.
   std::vector<int> point_bodies;
+  // Nor does it know how redundant reactions are shared (core/dynamics/shared_reactions.h); empty
+  // where they are those of the multipliers.
+  std::vector<LoopJoint> loop_joints;  // those that count first
+  std::vector<Row> loop_rows;          // of all closures with multipliers, idle rows included
 
   // Names, for channels and messages only.
   std::vector<std::string> link_names;     // by body

@@ -33,6 +33,9 @@ auto key(const ContactStructure& c) {
 auto key(const JointFrictionStructure& f) {
   return std::tuple(f.body, f.turn, f.slide, f.z);
 }
+auto key(const LoopJoint& j) {
+  return std::tuple(j.group, j.body, j.closure, j.counts);
+}
 auto key(const LoadStructure& l) {
   return std::tuple(l.type, l.v, l.body, l.follows_link, l.course, l.law, l.table_begin,
                     l.table_end);
@@ -50,7 +53,8 @@ bool same_structure(const Mechanism& a, const Mechanism& b) {
   return same(a.bodies, b.bodies) && same(a.stages, b.stages) && same(a.closures, b.closures) &&
          same(a.cut_rows, b.cut_rows) && same(a.sde_rows, b.sde_rows) && same(a.loads, b.loads) &&
          same(a.joint_springs, b.joint_springs) && same(a.clearances, b.clearances) &&
-         same(a.contacts, b.contacts) && same(a.frictions, b.frictions);
+         same(a.contacts, b.contacts) && same(a.frictions, b.frictions) &&
+         same(a.loop_joints, b.loop_joints) && same(a.loop_rows, b.loop_rows);
 }
 
 }  // namespace linkstudy
