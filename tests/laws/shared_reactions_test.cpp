@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "core/flexible/rigid_finite_elements.h"
 #include "tests/mechanisms/bennett.h"
 #include "tests/mechanisms/four_bar.h"
 #include "tests/mechanisms/placed_linkage.h"
@@ -325,6 +326,35 @@ TEST(SharedReactions, Loops_apart_do_not_feel_each_other) {
   EXPECT_GT(beside.at("R").norm(), 1.0);
   for (const char* name : {"L", "R"}) beside.erase(name);
   EXPECT_TRUE(same_reactions(alone, beside, 1e-10));
+}
+
+// A beam along the axis of its two hinges: its weight along itself is borne by half at either end,
+// however many parts it has, and the joints inside carry what hangs on them.
+TEST(SharedReactions, Joints_inside_a_flexible_link_bear_what_the_others_leave) {
+  constexpr double kWeight = 20.0;
+  for (const int parts : {2, 5}) {
+    Linkage linkage = on_two(JointType::revolute, 0.0);
+    linkage.gravity = {-kWeight / 2.0, 0, 0};
+    linkage.links[0] = {"frame", 2.0, Vector3d::Zero(),
+                        Vector3d(1e-3, 1.0 / 6, 1.0 / 6).asDiagonal()};
+    FlexibleBeam beam;
+    beam.segments = parts;
+    beam.begin = {-0.5, 0, 0};
+    beam.end = {0.5, 0, 0};
+    beam.young = 2e11;
+    beam.shear = 8e10;
+    beam.second_moment_y = beam.second_moment_z = 1e-8;
+    beam.torsion_constant = 2e-8;
+    linkage.links[0].flexible = beam;
+    const auto reactions =
+        start_of(expand_flexible_links(linkage), RedundantReactions::loops).reactions;
+    EXPECT_NEAR(reactions.at("L")[0], kWeight / 2, 1e-9) << parts;
+    EXPECT_NEAR(reactions.at("R")[0], kWeight / 2, 1e-9) << parts;
+    for (int k = 1; k <= parts; ++k) {
+      const double outboard = kWeight * (parts - k + 0.5) / parts;
+      EXPECT_NEAR(reactions.at("frame_sde" + std::to_string(k))[0], outboard - kWeight / 2, 1e-9);
+    }
+  }
 }
 
 TEST(SharedReactions, The_motion_has_the_same_bits) {
