@@ -141,11 +141,12 @@ inline void subtract_constraint_forces(const M& m, const Workspace<Real, M>& w, 
   });
 }
 
-// What does not depend on forces: rows and the factor of A.
+// What does not depend on forces: closure poses (of those whose rows are all idle, too), rows and
+// the factor of A.
 template <class M, class Real>
 inline void update_cut_joints(const M& m, const Parameters<Real>& p, Workspace<Real, M>& w) {
-  if (m.cut_rows.empty()) return;
   update_rows<ClosureModel::cut>(m, p, w);
+  if (m.cut_rows.empty()) return;
   update_constraint_factor(m, p, w);
   update_schur_complement(m, p, w);
 }

@@ -8,13 +8,14 @@
 // The load depends on the accelerations and these on friction. Reactions are linear in the friction
 // forces, loads nearly so: both are found together by Broyden's method from zero loads, which ends
 // after twice as many passes as there are such joints where loads are linear. Lanes that have
-// settled keep their load, so that each ends as it would alone. Where no balance exists the joint
-// jams: Workspace::jammed. Where there are several (friction may then overcome what drives it) one
-// of them is taken.
+// settled keep their load, so that each ends as it would alone. Reactions shared among the joints
+// of loops (core/dynamics/shared_reactions.h) are what friction feels. Where no balance exists the
+// joint jams: Workspace::jammed. Where there are several (friction may then overcome what drives
+// it) one of them is taken.
 #pragma once
 
 #include "core/dynamics/accelerations.h"
-#include "core/dynamics/reactions.h"
+#include "core/dynamics/shared_reactions.h"
 
 namespace linkstudy {
 
@@ -78,6 +79,9 @@ inline void set_load(const JointFrictionStructure& s, const JointFrictionParamet
 template <class M, class Real>
 inline auto load_gaps(const M& m, const Parameters<Real>& p, Workspace<Real, M>& w) {
   update_reactions(m, p, w, w.reactions);
+  if constexpr (!FixedStructure<M>) {
+    if (!w.shared.empty()) share_reactions(m, w, w.reactions, w.shared.front());
+  }
   auto none_left = Real(0.0) == Real(0.0);
   for_frictions(m, [&](auto i) {
     const JointFrictionStructure& s = at(m.frictions, i);
@@ -139,6 +143,9 @@ template <class M, class Real>
 inline void start_loads(const M& m, const Parameters<Real>& p, const Real* v,
                         Workspace<Real, M>& w) {
   const int n = static_cast<int>(m.frictions.size());
+  if constexpr (!FixedStructure<M>) {
+    if (!w.shared.empty()) update_self_stresses(m, p, w, w.shared.front());
+  }
   for_velocities(m, [&](auto k) { at(w.friction_tau, k) = at(w.tau, k); });
   for_frictions(m, [&](auto i) {
     JointFrictionState<Real>& x = at(w.frictions, i);

@@ -3,7 +3,7 @@
 // puts on its child through it, drive and resistance of the joint included: force, and moment about
 // the joint origin (the child's internal origin), ground axes. Closure forces of both kinds are
 // external loads here. Where cut rows are redundant the reactions are those of the least-norm
-// multipliers.
+// multipliers (core/dynamics/shared_reactions.h: others).
 #pragma once
 
 #include "core/dynamics/mass_matrix.h"

@@ -12,12 +12,6 @@ int rank_of(const MatrixXd& a) {
   return numerical_rank(a, kMobilityTolerance, kLeastRowSize).rank;
 }
 
-bool carries(const Mechanism& m, int body, int end) {
-  for (; end > body; end = m.bodies[static_cast<std::size_t>(end)].parent) {
-  }
-  return end == body;
-}
-
 // Rates of all rows by three turns of a body about ground axes through its origin and three shifts,
 // the bodies that it carries with it; without dimensions.
 MatrixXd twist_columns(const Model& closed, const ClosureScale& scale, const Workspace<double>& w,

@@ -149,6 +149,15 @@ struct JointFrictionStructure {
   bool operator==(const JointFrictionStructure&) const = default;
 };
 
+// A joint whose reaction is shared with the other joints of its loops.
+struct LoopJoint {
+  int group = 0;       // loops that have joints in common
+  int body = -1;       // that a tree joint carries, or
+  int closure = -1;    // the closure
+  bool counts = true;  // false inside a flexible link: takes what the others leave
+  bool operator==(const LoopJoint&) const = default;
+};
+
 struct LoadStructure {
   LoadType type;
   int v = -1;     // drive, resistance
@@ -181,6 +190,10 @@ struct MechanismStructure {
   int nz = 0;  // bristles
   int table_segments = 0;
   bool projects = false;  // some cut closure asks for coordinate projection
+  // How redundant reactions are shared (core/dynamics/shared_reactions.h); empty where they are
+  // those of the multipliers.
+  std::vector<LoopJoint> loop_joints;  // those that count first
+  std::vector<Row> loop_rows;          // of all closures with multipliers, idle rows included
 
   bool operator==(const MechanismStructure&) const = default;
 

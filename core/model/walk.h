@@ -42,6 +42,13 @@ inline void for_bodies_to_ground(const M& m, B b, F&& f) {
   }
 }
 
+// True if `end` is the body or lies outboard of it.
+template <class M>
+[[gnu::always_inline]] inline bool carries(const M& m, int body, int end) {
+  while (end > body) end = at(m.bodies, end).parent;
+  return end == body;
+}
+
 template <class M, class B, class F>
 inline void for_stages(const M& m, B b, F&& f) {
   for_range(structural(m, b, [](const auto& s, int i) { return at(s.bodies, i).stage_begin; }),

@@ -8,6 +8,7 @@
 
 #include "core/base/walk.h"
 #include "core/model/mechanism.h"
+#include "core/numerics/null_space_fit.h"
 #include "core/numerics/redundant_system.h"
 #include "core/spatial/spatial.h"
 
@@ -99,6 +100,20 @@ struct RowState {
   Vec3<Real> couple;  // direction of the torque, or zero
 };
 
+// Scratch and result of core/dynamics/shared_reactions.h.
+template <class Real>
+struct SharedReactions {
+  unsigned redundant = 0;            // lanes with something to share, one bit each
+  std::vector<Wrench<Real>> change;  // (joints) of Mechanism::loop_joints
+  std::vector<Wrench<Real>> borne;   // (joints) by the multipliers
+  std::vector<Real> length;          // (joints) l, m
+  std::vector<RowState<Real>> rows;  // (rows) of Mechanism::loop_rows
+  std::vector<Real> row_scale;       // (rows) l or 1
+  std::vector<Real> jacobian;        // (rows, nv)
+  std::vector<Wrench<Real>> effect;  // (rows, joints) of a multiplier 1 on the reactions
+  std::array<NullSpaceFit, RealTraits<Real>::lanes> fits;
+};
+
 // Numbers of things in a mechanism as far as its type tells them; -1: known when a program runs.
 template <class M>
 struct Counts {
@@ -159,6 +174,7 @@ struct Workspace {
   Array<Real, copes ? -1 : 0> row_scale;       // (nc) m or 1
   Array<Real, copes ? -1 : 0> velocity_scale;  // (nv) 1 or 1/m
   std::array<RedundantSystem, copes ? RealTraits<Real>::lanes : 0> redundant_systems;
+  Array<SharedReactions<Real>, copes ? -1 : 0> shared;  // one, where joint friction needs it
 };
 
 // Ground axes are constant: their unit forces are set here and never written again.
@@ -175,6 +191,28 @@ std::vector<RowState<Real>> make_rows(const std::vector<Row>& rows) {
   std::vector<RowState<Real>> states(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) set_ground_axis(rows[i], states[i]);
   return states;
+}
+
+// One where the mechanism has loop_joints.
+template <class Real>
+std::vector<SharedReactions<Real>> make_shared_reactions(const Mechanism& m) {
+  std::vector<SharedReactions<Real>> one;
+  if (m.loop_joints.empty()) return one;
+  SharedReactions<Real>& s = one.emplace_back();
+  const auto joints = m.loop_joints.size(), rows = m.loop_rows.size();
+  s.change.resize(joints);
+  s.borne.resize(joints);
+  s.length.resize(joints);
+  s.rows = make_rows<Real>(m.loop_rows);
+  s.row_scale.resize(rows);
+  s.jacobian.resize(rows * static_cast<std::size_t>(m.nv));
+  s.effect.resize(rows * joints);
+  int counted = 0;
+  for (const LoopJoint& joint : m.loop_joints) counted += joint.counts ? 6 : 0;
+  for (NullSpaceFit& fit : s.fits) {
+    fit = NullSpaceFit(static_cast<int>(rows), m.nv, 6 * static_cast<int>(joints), counted);
+  }
+  return one;
 }
 
 // Everything zero, and the ground axes set.
@@ -221,6 +259,7 @@ Workspace<Real> make_workspace(const Mechanism& m) {
   for (RedundantSystem& s : w.redundant_systems) {
     s = RedundantSystem(m.cut_row_count(), m.nv);
   }
+  if (!m.frictions.empty()) w.shared = make_shared_reactions<Real>(m);
   return w;
 }
 

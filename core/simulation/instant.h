@@ -4,18 +4,22 @@
 #include "core/closures/closure_wrench.h"
 #include "core/dynamics/energy.h"
 #include "core/dynamics/reactions.h"
+#include "core/dynamics/shared_reactions.h"
 #include "core/kinematics/point_motion.h"
 #include "core/simulation/channels.h"
 
 namespace linkstudy {
 
 // Values of one instant from which channels are read. Reactions, accelerations of bodies and
-// energies are computed when a channel first asks for them.
+// energies are computed when a channel first asks for them. Reactions are shared where the
+// mechanism has loop_joints; fixed structures have none.
 template <class Real, class M = Mechanism>
 class Instant {
  public:
   Instant(const M& m, const Parameters<Real>& p, const Workspace<Real, M>& w)
-      : m_(m), p_(p), w_(w), reactions_(make_reactions<Real>(m)) {}
+      : m_(m), p_(p), w_(w), reactions_(make_reactions<Real>(m)) {
+    if constexpr (!FixedStructure<M>) shared_ = make_shared_reactions<Real>(m);
+  }
 
   // y: q (nq), v (nv), z (nz), supplied, dissipated; w must hold the evaluation at (t, y).
   void move_to(double t, const Real* y) {
@@ -45,7 +49,7 @@ class Instant {
       case Quantity::closure_torque:
         return component(closure_wrench(c.index).torque, c.component);
       case Quantity::closure_gap:
-        return component(closure_wrench(c.index).gap, c.component);
+        return component(own_closure_wrench(c.index).gap, c.component);
       case Quantity::eccentricity:
         return eccentricity(c);
       case Quantity::penetration:
@@ -85,8 +89,18 @@ class Instant {
   }
 
  private:
-  ClosureWrench<Real> closure_wrench(int c) const {
+  ClosureWrench<Real> own_closure_wrench(int c) const {
     return compute_closure_wrench(at(m_.closures, c), at(w_.closures, c));
+  }
+
+  ClosureWrench<Real> closure_wrench(int c) {
+    ClosureWrench<Real> f = own_closure_wrench(c);
+    if constexpr (!FixedStructure<M>) {
+      if (shared_.empty()) return f;
+      update_all_reactions();
+      add_shared(m_, c, shared_.front(), f);
+    }
+    return f;
   }
 
   // Along y or z of the bearing's frame, in the middle of the bearing.
@@ -137,9 +151,20 @@ class Instant {
     return point_acceleration(at(reactions_.moving, c.body), p_.gravity, at_body);
   }
 
-  Real reaction(const Channel& c) {
-    if (!has_reactions_) update_reactions(m_, p_, w_, reactions_);
+  void update_all_reactions() {
+    if (has_reactions_) return;
+    update_reactions(m_, p_, w_, reactions_);
+    if constexpr (!FixedStructure<M>) {
+      if (!shared_.empty()) {
+        update_self_stresses(m_, p_, w_, shared_.front());
+        share_reactions(m_, w_, reactions_, shared_.front());
+      }
+    }
     has_reactions_ = has_accelerations_ = true;
+  }
+
+  Real reaction(const Channel& c) {
+    update_all_reactions();
     const BodyState<Real>& b = at(w_.bodies, c.index);
     const Wrench<Real>& f = at(reactions_.on_child, c.index);
     const bool force =
@@ -156,6 +181,7 @@ class Instant {
   double t_ = 0.0;
   const Real* y_ = nullptr;
   Reactions<Real, M> reactions_;
+  Array<SharedReactions<Real>, FixedStructure<M> ? 0 : -1> shared_;  // one, or none
   Energy<Real> energy_{};
   Real initial_energy_ = Real(0.0);
   bool has_reactions_ = false;

@@ -8,6 +8,11 @@ namespace linkstudy {
 // and the end of contacts, and are seen by observers on the grid of `step`.
 enum class Integrator { rk4, adaptive, stiff };
 enum class Start { given, equilibrium };
+// Where cut joints hold a motion twice, single reactions are not unique. cut: the multipliers of
+// the cut joints are those of least norm, the tree joints bear the rest. loops: the reactions of
+// all joints of the loops are least together (core/dynamics/shared_reactions.h). The motion is the
+// same but for friction in joints, which feels them.
+enum class RedundantReactions { cut, loops };
 
 struct SimulationOptions {
   double end_time = 1.0;          // s
@@ -18,6 +23,7 @@ struct SimulationOptions {
   double absolute_tolerance = 1.0e-10;  // adaptive, stiff: in the units of each unknown
   long step_limit = 100'000'000;        // adaptive, stiff: more steps end the run (step_budget)
   Start start = Start::given;
+  RedundantReactions redundant_reactions = RedundantReactions::cut;
   double statics_time = 0.0;    // s; loads count in equilibrium with their value then
   double drift_limit = 1.0e-3;  // m or rad; a larger gap of a cut closure ends the run
 };

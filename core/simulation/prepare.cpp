@@ -12,6 +12,7 @@
 #include "core/kinematics/idle_rows.h"
 #include "core/kinematics/mobility.h"
 #include "core/kinematics/three_turns.h"
+#include "core/model/loop_joints.h"
 #include "core/numerics/rank.h"
 #include "core/simulation/simulate.h"
 #include "core/spatial/rotation_vector.h"
@@ -46,8 +47,24 @@ std::string holding_joints(const MobilityReport& r) {
   return names.empty() ? names : names + ")";
 }
 
+// Which of the reactions that balance the linkage are taken.
+std::string taken_text(RedundantReactions way) {
+  const std::string text =
+      ": single reactions are not unique, the compliance of joints and links decides them; "
+      "simulation.redundant_reactions = ";
+  if (way == RedundantReactions::loops) {
+    return text +
+           "\"loops\": those of all joints of the loops are least together, moments and forces "
+           "times the spread of the joints";
+  }
+  return text +
+         "\"cut\": multipliers of the cut joints are those of least norm, tree joints bear the "
+         "rest; \"loops\" lets all joints of the loops share";
+}
+
 // Whether the linkage has fewer independent equations everywhere, or at the start only.
-void describe_redundancy(const Linkage& linkage, int redundant, int rows, Preparation& p) {
+void describe_redundancy(const Linkage& linkage, RedundantReactions way, int redundant, int rows,
+                         Preparation& p) {
   Linkage cuts = linkage;
   std::erase_if(cuts.closures, [](const Closure& c) { return c.model == ClosureModel::sde; });
   const MobilityReport r = analyse_mobility(compile(cuts), p.model.start);
@@ -61,11 +78,12 @@ void describe_redundancy(const Linkage& linkage, int redundant, int rows, Prepar
   }
   p.warnings.push_back(std::to_string(redundant) + " of " + std::to_string(rows) +
                        " closure equations are redundant at the start" + holding_joints(r) +
-                       ": multipliers are those of least norm, single reactions are not unique");
+                       taken_text(way));
 }
 
 // Replacement joints have no multipliers: only cut joints can be redundant.
-void warn_of_redundancy(const Linkage& linkage, const std::vector<unsigned>& idle, Preparation& p) {
+void warn_of_redundancy(const Linkage& linkage, RedundantReactions way,
+                        const std::vector<unsigned>& idle, Preparation& p) {
   const int held = p.model.mechanism.cut_row_count();
   int rows = held;
   for (const unsigned directions : idle) rows += std::popcount(directions);
@@ -73,7 +91,7 @@ void warn_of_redundancy(const Linkage& linkage, const std::vector<unsigned>& idl
       compute_closure_equations(p.model.mechanism, p.model.parameters, p.model.start);
   const int rank = held > 0 ? numerical_rank(e.jacobian, kRankTolerance).rank : 0;
   if (rank == rows) return;
-  describe_redundancy(linkage, rows - rank, rows, p);
+  describe_redundancy(linkage, way, rows - rank, rows, p);
   const auto& closures = p.model.mechanism.closures;
   const bool drifts = std::any_of(closures.begin(), closures.end(), [](const auto& c) {
     return c.model == ClosureModel::cut && c.stabilization == Stabilization::none;
@@ -181,7 +199,7 @@ void warn_of_changed_velocities(const Linkage& linkage, const State<double>& giv
 }
 
 bool assemble(const Linkage& linkage, const std::vector<unsigned>& idle, const Model& closed,
-              Preparation& p) {
+              RedundantReactions way, Preparation& p) {
   const State<double> given = p.model.start;
   p.assembly = assemble_start(closed, p.model.start);
   const bool loose = keep_loose_journals(linkage, idle, given, p);
@@ -200,7 +218,7 @@ bool assemble(const Linkage& linkage, const std::vector<unsigned>& idle, const M
                          " away. To begin there:" + pose_text(p.model));
   }
   for (std::string& text : flipped_texts(a)) p.warnings.push_back(std::move(text));
-  warn_of_redundancy(linkage, idle, p);
+  warn_of_redundancy(linkage, way, idle, p);
   return true;
 }
 
@@ -344,7 +362,9 @@ Preparation prepare(const Linkage& linkage, const SimulationOptions& options) {
   const std::vector<unsigned> idle = find_idle_directions(linkage);
   p.model = compile(linkage, idle);
   const Model closed = compile_start(with_ideal_bearings(linkage));
-  if (!assemble(linkage, idle, closed, p)) return p;
+  const RedundantReactions way = options.redundant_reactions;
+  if (way == RedundantReactions::loops) add_loop_joints(linkage, p.model.mechanism);
+  if (!assemble(linkage, idle, closed, way, p)) return p;
   resolve_damping(linkage, p.model.start, p.model);
   const std::vector<double> velocities = p.model.start.v;
   if (options.start == Start::equilibrium) {

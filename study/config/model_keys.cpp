@@ -373,6 +373,16 @@ void add_simulation_rows(Rows& rows) {
                   .unit = "s",
                   .range = kNotNegative,
                   .standard = "0.0"});
+  rows.push_back({.path = s + ".redundant_reactions",
+                  .type = word,
+                  .meaning =
+                      "reactions where joints hold a motion twice and single ones are not "
+                      "unique; cut: multipliers of least norm in the cut joints, tree joints "
+                      "bear the rest; loops: least over all joints of the loops; the motion "
+                      "is the same but for friction in joints, which feels them",
+                  .standard = "\"cut\"",
+                  .words = {"cut", "loops"},
+                  .effects = {acts_where("closure.*.model", {"cut", "clearance"})}});
   rows.push_back({.path = s + ".output_interval",
                   .type = number,
                   .meaning = "time between samples of channels",

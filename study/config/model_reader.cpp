@@ -136,6 +136,9 @@ SimulationOptions read_options(Tree& model, Diagnostics& diagnostics) {
   options.drift_limit = number_of(*tree, "drift_limit", options.drift_limit);
   options.statics_time = number_of(*tree, "statics_time", options.statics_time);
   if (word_of(*tree, "start") == "equilibrium") options.start = Start::equilibrium;
+  if (word_of(*tree, "redundant_reactions") == "loops") {
+    options.redundant_reactions = RedundantReactions::loops;
+  }
   const std::string integrator = word_of(*tree, "integrator");
   if (integrator == "adaptive") options.integrator = Integrator::adaptive;
   if (integrator == "stiff") options.integrator = Integrator::stiff;

@@ -11,6 +11,7 @@ namespace linkstudy::testing {
 namespace {
 
 using nlohmann::json;
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -81,6 +82,33 @@ step = 0.001
 statics_time = 1.0
 )";
 
+// Two hinges on the x axis, 1 m apart, and a frame of 10 kg that hangs 0.3 m off their middle.
+constexpr const char* kTwoHinges = R"(format = 1
+kind = "model"
+name = "two hinges"
+gravity = [0.0, -9.81, 0.0]
+
+[[link]]
+name = "frame"
+mass = 10.0
+center_of_mass = [0.8, -0.4, 0.0]
+inertia = [1.0, 0.5, 1.2]
+
+[[joint]]
+name = "L"
+type = "revolute"
+parent = "ground"
+child = "frame"
+frame = { position = [-0.5, 0, 0], rotation = { axis = [0, 1, 0], angle = "90 deg" } }
+child_frame = { rotation = { axis = [0, 1, 0], angle = "90 deg" } }
+
+[[closure]]
+name = "R"
+type = "revolute"
+first = { link = "frame", position = [1.0, 0.0, 0.0] }
+second = { link = "ground", position = [0.5, 0.0, 0.0] }
+)";
+
 class StaticsVerb : public Program {
  protected:
   StaticsVerb() {
@@ -135,6 +163,29 @@ TEST_F(StaticsVerb, Loads_count_with_their_value_at_the_time_of_statics) {
   EXPECT_THAT(run("statics bushing.toml").out, HasSubstr("loads of t = 1 s"));
 }
 
+// The moment 0.3 m x 98.1 N across the axis is borne by half as forces M / 2 on 1 m, by half as
+// moments M / 4; the cut hinge alone bears nothing of it.
+TEST_F(StaticsVerb, Two_hinges_share_a_weight_on_request_and_the_warning_says_what_was_taken) {
+  write("hinges.toml", kTwoHinges);
+  const double weight = 98.1, M = 0.3 * weight;
+  const std::string set = "hinges.toml --set simulation.redundant_reactions=";
+  const json cut = object_of(set + "cut")["values"], loops = object_of(set + "loops")["values"];
+  EXPECT_NEAR(cut["joint.L.force.y"], weight, 1e-9);
+  EXPECT_NEAR(cut["joint.L.torque.z"], 0.8 * weight, 1e-9);
+  EXPECT_EQ(cut["closure.R.force.y"], 0.0);
+  EXPECT_NEAR(loops["joint.L.force.y"], weight / 2 - M / 2, 1e-9);
+  EXPECT_NEAR(loops["closure.R.force.y"], weight / 2 + M / 2, 1e-9);
+  EXPECT_NEAR(loops["joint.L.torque.z"], M / 4, 1e-9);
+  EXPECT_NEAR(loops["closure.R.torque.z"], M / 4, 1e-9);
+  EXPECT_THAT(run("statics hinges.toml").err,
+              AllOf(HasSubstr("5 of 5 closure equations are redundant"),
+                    HasSubstr("joint.L, closure.R"), HasSubstr("redundant_reactions = \"cut\"")));
+  EXPECT_THAT(run("statics " + set + "loops").err, HasSubstr("redundant_reactions = \"loops\""));
+  const Ended wrong = run("statics " + set + "all");
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("cut, loops"));
+}
+
 TEST_F(StaticsVerb, A_torque_beyond_the_largest_of_a_sine_is_a_failure_that_says_so) {
   const Ended ended = run("statics bushing.toml --set closure.B.sde.tilt=axis --json");
   EXPECT_EQ(ended.code, 3);
@@ -169,6 +220,43 @@ reduce = "max"
     const double turn = rows[i]["turn"];
     EXPECT_NEAR(turn, 4.0 / stiffness[i], 1e-9);
   }
+}
+
+TEST_F(StaticsVerb, A_study_may_vary_how_redundant_reactions_are_shared) {
+  write("hinges.toml", kTwoHinges);
+  write("study.toml", R"(format = 1
+kind = "study"
+name = "hinges"
+model = "hinges.toml"
+
+[base.set]
+"simulation.end_time" = 0.01
+"simulation.step" = 0.001
+
+[[vary]]
+parameter = "simulation.redundant_reactions"
+values = ["cut", "loops"]
+
+[[response]]
+name = "left"
+signal = "joint.L.force.y"
+reduce = "mean"
+
+[[response]]
+name = "right"
+signal = "closure.R.force.y"
+reduce = "mean"
+)");
+  const Ended ended = run("study study.toml -o out");
+  EXPECT_EQ(ended.code, 0) << ended.err << ended.out;
+  const json rows = json::parse(run("export out --format json").out)["rows"];
+  ASSERT_EQ(rows.size(), 2u);
+  // At rest below the axis: as in statics.
+  const double weight = 98.1, M = 0.3 * weight;
+  EXPECT_NEAR(rows[0]["left"], weight, 1e-9);
+  EXPECT_NEAR(rows[0]["right"], 0.0, 1e-9);
+  EXPECT_NEAR(rows[1]["left"], weight / 2 - M / 2, 1e-9);
+  EXPECT_NEAR(rows[1]["right"], weight / 2 + M / 2, 1e-9);
 }
 
 }  // namespace

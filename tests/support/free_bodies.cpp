@@ -132,23 +132,6 @@ Matrix3d cross_matrix(const Vector3d& r) {
   return S;
 }
 
-// The part of one wrench (F, N) at `point` in the six balances of a link about C.
-Eigen::Matrix<double, 6, 6> lever(const Vector3d& point, const Vector3d& C) {
-  Eigen::Matrix<double, 6, 6> A = Eigen::Matrix<double, 6, 6>::Identity();
-  A.bottomLeftCorner<3, 3>() = cross_matrix(point - C);
-  return A;
-}
-
-// m (a_C - g) and I alpha + omega x I omega.
-Eigen::Matrix<double, 6, 1> inertial_wrench(const Link& body, const LinkMotion& link,
-                                            const Vector3d& gravity) {
-  const Matrix3d I = link.R * body.inertia * link.R.transpose();
-  Eigen::Matrix<double, 6, 1> wrench;
-  wrench << body.mass * (point_motion(link, body.center_of_mass).a - gravity),
-      I * link.alpha + link.omega.cross(I * link.omega);
-  return wrench;
-}
-
 int index_of(const std::vector<LinkMotion>& motions, const std::string& link) {
   for (std::size_t k = 0; k < motions.size(); ++k) {
     if (motions[k].link == link) return static_cast<int>(k);
@@ -188,6 +171,21 @@ PointMotion point_motion(const LinkMotion& link, const Eigen::Vector3d& point) {
   const Vector3d r = link.R * point;
   return {link.p + r, link.v + link.omega.cross(r),
           link.a + link.alpha.cross(r) + link.omega.cross(link.omega.cross(r))};
+}
+
+Eigen::Matrix<double, 6, 6> lever(const Vector3d& point, const Vector3d& C) {
+  Eigen::Matrix<double, 6, 6> A = Eigen::Matrix<double, 6, 6>::Identity();
+  A.bottomLeftCorner<3, 3>() = cross_matrix(point - C);
+  return A;
+}
+
+Eigen::Matrix<double, 6, 1> inertial_wrench(const Link& body, const LinkMotion& link,
+                                            const Vector3d& gravity) {
+  const Matrix3d I = link.R * body.inertia * link.R.transpose();
+  Eigen::Matrix<double, 6, 1> wrench;
+  wrench << body.mass * (point_motion(link, body.center_of_mass).a - gravity),
+      I * link.alpha + link.omega.cross(I * link.omega);
+  return wrench;
 }
 
 std::vector<ExternalWrench> load_wrenches(const Linkage& linkage,

@@ -35,6 +35,13 @@ struct PointMotion {
 };
 PointMotion point_motion(const LinkMotion& link, const Eigen::Vector3d& point);
 
+// The part of one wrench (F, N) at `point` in the six balances of a link about C.
+Eigen::Matrix<double, 6, 6> lever(const Eigen::Vector3d& point, const Eigen::Vector3d& C);
+
+// m (a_C - g) and I alpha + omega x I omega.
+Eigen::Matrix<double, 6, 1> inertial_wrench(const Link& body, const LinkMotion& link,
+                                            const Eigen::Vector3d& gravity);
+
 // Force at a point and torque on a link; point, force, torque in the ground frame.
 struct ExternalWrench {
   std::string link;

@@ -48,6 +48,8 @@ MechanismStructure full_structure() {
       {.closure = 0, .bearing_first = false, .hertz = false, .contact_begin = 0, .contact_end = 1});
   m.contacts.push_back({0, 0.0});
   m.frictions.push_back({.body = 1, .z = 0});
+  m.loop_joints.push_back({.group = 0, .body = 1});
+  m.loop_rows = m.cut_rows;
   return m;
 }
 
@@ -131,17 +133,34 @@ TEST(SameStructure, Counts_every_member_of_contacts_friction_springs_and_loads) 
        [](M& m) { m.loads[0].table_begin = 9; }, [](M& m) { m.loads[0].table_end = 9; }});
 }
 
+TEST(SameStructure, Counts_every_member_of_a_joint_that_shares_reactions) {
+  expect_each_counts<LoopJoint>(
+      {[](M& m) { m.loop_joints[0].group = 9; }, [](M& m) { m.loop_joints[0].body = 9; },
+       [](M& m) { m.loop_joints[0].closure = 9; }, [](M& m) { m.loop_joints[0].counts = false; }});
+}
+
 TEST(SameStructure, Counts_every_list_and_number_of_a_mechanism) {
-  expect_each_counts<MechanismStructure>(
-      {[](M& m) { m.nq = 9; }, [](M& m) { m.nv = 9; }, [](M& m) { m.bodies.emplace_back(); },
-       [](M& m) { m.stages.clear(); }, [](M& m) { m.v_parent.clear(); },
-       [](M& m) { m.velocities.clear(); }, [](M& m) { m.ball_q.clear(); },
-       [](M& m) { m.closures.clear(); }, [](M& m) { m.cut_rows.clear(); },
-       [](M& m) { m.sde_rows.clear(); }, [](M& m) { m.support.clear(); },
-       [](M& m) { m.loads.clear(); }, [](M& m) { m.joint_springs.clear(); },
-       [](M& m) { m.clearances.clear(); }, [](M& m) { m.contacts.clear(); },
-       [](M& m) { m.frictions.clear(); }, [](M& m) { m.nz = 9; },
-       [](M& m) { m.table_segments = 9; }, [](M& m) { m.projects = true; }});
+  expect_each_counts<MechanismStructure>({[](M& m) { m.nq = 9; },
+                                          [](M& m) { m.nv = 9; },
+                                          [](M& m) { m.bodies.emplace_back(); },
+                                          [](M& m) { m.stages.clear(); },
+                                          [](M& m) { m.v_parent.clear(); },
+                                          [](M& m) { m.velocities.clear(); },
+                                          [](M& m) { m.ball_q.clear(); },
+                                          [](M& m) { m.closures.clear(); },
+                                          [](M& m) { m.cut_rows.clear(); },
+                                          [](M& m) { m.sde_rows.clear(); },
+                                          [](M& m) { m.support.clear(); },
+                                          [](M& m) { m.loads.clear(); },
+                                          [](M& m) { m.joint_springs.clear(); },
+                                          [](M& m) { m.clearances.clear(); },
+                                          [](M& m) { m.contacts.clear(); },
+                                          [](M& m) { m.frictions.clear(); },
+                                          [](M& m) { m.nz = 9; },
+                                          [](M& m) { m.table_segments = 9; },
+                                          [](M& m) { m.projects = true; },
+                                          [](M& m) { m.loop_joints.clear(); },
+                                          [](M& m) { m.loop_rows.clear(); }});
 }
 
 TEST(SameStructure, Leaves_names_and_chosen_points_aside) {

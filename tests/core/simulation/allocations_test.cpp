@@ -115,4 +115,19 @@ TEST(Allocations, Ten_times_the_steps_allocate_no_more) {
   }
 }
 
+TEST(Allocations, Sharing_redundant_reactions_allocates_no_more_with_ten_times_the_steps) {
+  SimulationOptions options;
+  options.redundant_reactions = RedundantReactions::loops;
+  Linkage rubbing = four_bar();
+  rubbing.joints[0].friction.emplace();
+  rubbing.joints[0].friction->law = {.mu_s = 0.1, .mu_k = 0.1, .sigma0 = 200.0};
+  rubbing.joints[0].friction->radius = 0.01;
+  for (const Linkage& linkage : {four_bar(), rubbing}) {
+    const Model model = prepare(linkage, options).model;
+    EXPECT_FALSE(model.mechanism.loop_joints.empty());
+    EXPECT_EQ(allocations_of(model, 2000), allocations_of(model, 200));
+    EXPECT_EQ(allocations_of_pack(model, 2000), allocations_of_pack(model, 200));
+  }
+}
+
 }  // namespace linkstudy::testing
