@@ -1,6 +1,8 @@
 // How one simulation is run: the [simulation] table of a model.
 #pragma once
 
+#include "core/base/words.h"
+
 namespace linkstudy {
 
 // rk4: constant steps of the classical Runge-Kutta method. adaptive: explicit, Dormand and Prince.
@@ -8,6 +10,17 @@ namespace linkstudy {
 // and the end of contacts, and are seen by observers on the grid of `step`.
 enum class Integrator { rk4, adaptive, stiff };
 enum class Start { given, equilibrium };
+
+template <>
+inline constexpr auto kWords<Integrator> = make_words<Integrator>(
+    {{Integrator::rk4, "rk4", "classic Runge-Kutta with a constant step"},
+     {Integrator::adaptive, "adaptive", "explicit Dormand-Prince"},
+     {Integrator::stiff, "stiff", "implicit Rosenbrock; both find begin and end of contacts"}});
+template <>
+inline constexpr auto kWords<Start> =
+    make_words<Start>({{Start::given, "given", "as the joints say"},
+                       {Start::equilibrium, "equilibrium",
+                        "statics first (joints with hold = true stay; friction is left out)"}});
 
 struct SimulationOptions {
   double end_time = 1.0;          // s
@@ -20,6 +33,8 @@ struct SimulationOptions {
   Start start = Start::given;
   double statics_time = 0.0;    // s; loads count in equilibrium with their value then
   double drift_limit = 1.0e-3;  // m or rad; a larger gap of a cut closure ends the run
+
+  bool operator==(const SimulationOptions&) const = default;
 };
 
 }  // namespace linkstudy

@@ -16,8 +16,8 @@ namespace {
 void check_signals_of(const std::string& path, Diagnostics& diagnostics) {
   Diagnostics said_before;
   const std::optional<Tree> tree = read_toml_file(path, said_before);
-  const std::optional<std::string> kind = tree ? kind_of(*tree, said_before) : std::nullopt;
-  if (!kind || *kind == "model") return;
+  const std::optional<FileKind> kind = tree ? kind_of(*tree, said_before) : std::nullopt;
+  if (!kind || *kind == FileKind::model) return;
   const std::optional<StudyInput> input = read_study(path, {}, said_before);
   if (input) make_evaluator(*input, diagnostics);
 }

@@ -260,7 +260,7 @@ void check_values(const CommandLine& line) {
   require(!line.positions || (*line.positions >= 2 && *line.positions <= 1000000),
           "--positions must be from 2 to 1000000");
   require(!line.batch || *line.batch > 0, "--batch must be positive");
-  require(find_progress_mode(line.progress).has_value(),
+  require(find_word<ProgressMode>(line.progress).has_value(),
           fmt::format("--progress must be auto, bar, line or none, got '{}'", line.progress));
   const std::vector<std::string> levels = {"debug", "info", "warning", "error", "off"};
   require(std::ranges::find(levels, line.log_level) != levels.end(),

@@ -53,7 +53,7 @@ std::vector<Axis> axes_of(const StudyInput& input) {
 }
 
 Design design_of(const StudyInput& input) {
-  return input.design == DesignType::list ? Design::list : Design::grid;
+  return input.design;
 }
 
 std::vector<Value> first_point(const StudyInput& input) {

@@ -103,7 +103,7 @@ SimulationOutcome run_model(const CommandLine& line, const Preparation& preparat
                             const SimulationOptions& options, Observers& observers) {
   const Model& model = preparation.model;
   std::atomic<double> reached{0.0};
-  const RunWatch watch(*find_progress_mode(line.progress), options.end_time, reached);
+  const RunWatch watch(*find_word<ProgressMode>(line.progress), options.end_time, reached);
   RunLimits limits;
   limits.timeout_s = line.timeout_s.value_or(0.0);
   limits.reached = &reached;

@@ -328,7 +328,7 @@ StudySession::StudySession(const CommandLine& line, Evaluator& evaluator, StudyR
       log_(log),
       total_(total),
       failures_(record.failure_count()),
-      progress_(*find_progress_mode(line.progress), most_evaluations(evaluator.input(), total),
+      progress_(*find_word<ProgressMode>(line.progress), most_evaluations(evaluator.input(), total),
                 record.evaluations().size(), Clock::now()) {}
 
 void StudySession::evaluate(const std::vector<Point>& points) {

@@ -55,7 +55,7 @@ void put_cause(ByteWriter& out, Cause cause) {
 
 Cause get_cause(ByteReader& in) {
   const std::uint8_t number = in.get_u8();
-  if (number >= kCauseNames.size()) throw std::out_of_range("record holds an unknown cause");
+  if (number >= kWords<Cause>.size()) throw std::out_of_range("record holds an unknown cause");
   return static_cast<Cause>(number);
 }
 

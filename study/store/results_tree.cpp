@@ -64,11 +64,20 @@ double response_of(const Evaluation& evaluation, std::size_t index) {
                                              : std::numeric_limits<double>::quiet_NaN();
 }
 
+// By number.
+std::vector<std::string> cause_names() {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < kWords<Cause>.size(); ++i) {
+    names.emplace_back(name_of(static_cast<Cause>(i)));
+  }
+  return names;
+}
+
 void add_outcome(DataGroup& group, const std::vector<Evaluation>& evaluations) {
   group.columns.push_back(
       {"status", "", "why the evaluation ended", "status",
        column_of(evaluations, [](const auto& e) { return static_cast<std::uint8_t>(e.status); }),
-       std::vector<std::string>(kCauseNames.begin(), kCauseNames.end())});
+       cause_names()});
   group.columns.push_back({"message",
                            "",
                            "reason in words",
