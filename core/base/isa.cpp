@@ -16,12 +16,10 @@ InstructionSet widest() {
 }
 
 InstructionSet wanted(const std::string& name) {
-  for (const auto isa : {InstructionSet::baseline, InstructionSet::avx2, InstructionSet::avx512}) {
-    if (name != name_of(isa)) continue;
-    if (!machine_has(isa)) throw SimdError("LINKSTUDY_SIMD=" + name + ": not on this machine");
-    return isa;
-  }
-  throw SimdError("LINKSTUDY_SIMD=" + name + ": must be baseline, avx2 or avx512");
+  const std::optional<InstructionSet> isa = find_word<InstructionSet>(name);
+  if (!isa) throw SimdError("LINKSTUDY_SIMD=" + name + ": must be baseline, avx2 or avx512");
+  if (!machine_has(*isa)) throw SimdError("LINKSTUDY_SIMD=" + name + ": not on this machine");
+  return *isa;
 }
 
 }  // namespace

@@ -4,17 +4,18 @@
 #pragma once
 
 #include <stdexcept>
-#include <string_view>
+
+#include "core/base/words.h"
 
 namespace linkstudy {
 
 enum class InstructionSet { baseline, avx2, avx512 };
 
-constexpr std::string_view name_of(InstructionSet isa) {
-  return isa == InstructionSet::avx512 ? "avx512"
-         : isa == InstructionSet::avx2 ? "avx2"
-                                       : "baseline";
-}
+template <>
+inline constexpr auto kWords<InstructionSet> =
+    make_words<InstructionSet>({{InstructionSet::baseline, "baseline"},
+                                {InstructionSet::avx2, "avx2"},
+                                {InstructionSet::avx512, "avx512"}});
 
 struct SimdLevel {
   InstructionSet isa = InstructionSet::baseline;

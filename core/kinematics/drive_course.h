@@ -12,9 +12,18 @@
 #include <string>
 #include <vector>
 
+#include "core/base/words.h"
+
 namespace linkstudy {
 
 enum class MotionLaw { linear, smooth, polynomial_345, table };
+
+template <>
+inline constexpr auto kWords<MotionLaw> = make_words<MotionLaw>(
+    {{MotionLaw::linear, "linear", "s"},
+     {MotionLaw::smooth, "smooth", "3 s^2 - 2 s^3"},
+     {MotionLaw::polynomial_345, "polynomial_345", "10 s^3 - 15 s^4 + 6 s^5"},
+     {MotionLaw::table, "table", "cubic spline through `positions` at `times`"}});
 
 struct DriveCourse {
   std::string joint;
@@ -25,6 +34,8 @@ struct DriveCourse {
   MotionLaw law = MotionLaw::linear;
   std::vector<double> times;      // table: rising, the first is 0
   std::vector<double> positions;  // table: as many
+
+  bool operator==(const DriveCourse&) const = default;
 };
 
 struct KinematicsOptions {
@@ -33,6 +44,8 @@ struct KinematicsOptions {
   // no drive turns.
   std::optional<double> duration;
   int positions = 73;  // evenly spaced in time, both ends included
+
+  bool operator==(const KinematicsOptions&) const = default;
 };
 
 }  // namespace linkstudy

@@ -1,9 +1,9 @@
 // Why a run ended: a closed list, stored by number in results and by name in tables.
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <string_view>
+
+#include "core/base/words.h"
 
 namespace linkstudy {
 
@@ -24,23 +24,21 @@ enum class Cause : std::uint8_t {
   step_too_coarse
 };
 
-inline constexpr std::array<std::string_view, 14> kCauseNames = {"ok",
-                                                                 "diverged",
-                                                                 "energy_blowup",
-                                                                 "step_budget",
-                                                                 "statics_failed",
-                                                                 "assembly_failed",
-                                                                 "constraint_drift",
-                                                                 "contact_budget",
-                                                                 "timeout",
-                                                                 "cancelled",
-                                                                 "exception",
-                                                                 "rank_lost",
-                                                                 "invalid_point",
-                                                                 "step_too_coarse"};
-
-constexpr std::string_view name_of(Cause cause) {
-  return kCauseNames[static_cast<std::size_t>(cause)];
-}
+template <>
+inline constexpr auto kWords<Cause> =
+    make_words<Cause>({{Cause::ok, "ok"},
+                       {Cause::diverged, "diverged"},
+                       {Cause::energy_blowup, "energy_blowup"},
+                       {Cause::step_budget, "step_budget"},
+                       {Cause::statics_failed, "statics_failed"},
+                       {Cause::assembly_failed, "assembly_failed"},
+                       {Cause::constraint_drift, "constraint_drift"},
+                       {Cause::contact_budget, "contact_budget"},
+                       {Cause::timeout, "timeout"},
+                       {Cause::cancelled, "cancelled"},
+                       {Cause::exception, "exception"},
+                       {Cause::rank_lost, "rank_lost"},
+                       {Cause::invalid_point, "invalid_point"},
+                       {Cause::step_too_coarse, "step_too_coarse"}});
 
 }  // namespace linkstudy

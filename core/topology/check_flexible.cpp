@@ -12,7 +12,6 @@
 namespace linkstudy {
 namespace {
 
-constexpr int kMostSegments = 200;  // dense matrices of 3 freedoms a segment
 constexpr double kCenterTolerance = 1.0e-6;
 constexpr double kAxisTolerance = 1.0e-6;
 constexpr double kMomentTolerance = 1.0e-8;

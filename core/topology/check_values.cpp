@@ -6,6 +6,7 @@
 
 #include "core/topology/check_contact.h"
 #include "core/topology/check_flexible.h"
+#include "core/topology/linkage_words.h"
 #include "core/topology/record_check.h"
 
 namespace linkstudy {
@@ -88,12 +89,12 @@ void check_tilt(const Closure& closure, RecordCheck& record) {
 }
 
 void check_sde(const Closure& closure, RecordCheck& record) {
-  static constexpr const char* kNames[kDirections] = {"x", "y", "z", "phi", "theta", "psi"};
   const Sde& sde = closure.sde;
   bool any = false;
   for (std::size_t d = 0; d < kDirections; ++d) {
-    record.require_not_negative(std::string("sde.stiffness.") + kNames[d], sde.stiffness[d]);
-    record.require_not_negative(std::string("sde.damping.") + kNames[d], sde.damping[d]);
+    record.require_not_negative(std::string("sde.stiffness.") + kDirectionNames[d],
+                                sde.stiffness[d]);
+    record.require_not_negative(std::string("sde.damping.") + kDirectionNames[d], sde.damping[d]);
     any = any || sde.stiffness[d] > 0.0;
   }
   if (!any) {
@@ -201,9 +202,7 @@ void check_closure(const Closure& closure, const std::string& path,
                    std::vector<Problem>& problems) {
   RecordCheck record{path, "closure '" + closure.name + "'", problems};
   if (blocked_directions(closure.type) == 0) {
-    const bool is_free = closure.type == JointType::free;
-    record.report("type",
-                  std::string("type of a closure cannot be ") + (is_free ? "free" : "screw"),
+    record.report("type", "type of a closure cannot be " + std::string(name_of(closure.type)),
                   "use spherical, revolute, universal, prismatic, cylindrical, planar or fixed");
   }
   record.require_frame("first", closure.first.frame);

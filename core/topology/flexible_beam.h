@@ -7,6 +7,8 @@
 
 namespace linkstudy {
 
+inline constexpr int kMostSegments = 200;  // dense matrices of 3 freedoms a segment
+
 // Columns are the axes of the beam in the link frame: x along the beam, y = `across` made
 // perpendicular. Precondition: begin and end differ, across is not along the beam.
 Eigen::Matrix3d beam_axes(const FlexibleBeam& beam);

@@ -21,6 +21,8 @@ inline constexpr const char* kGround = "ground";
 struct Frame {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  // R_LF
   Eigen::Vector3d position = Eigen::Vector3d::Zero();      // p_LF, m
+
+  bool operator==(const Frame&) const = default;
 };
 
 // A beam modelled by rigid finite elements ([AugUrb18] sec. 3): `segments` spring-damping elements
@@ -38,6 +40,8 @@ struct FlexibleBeam {
   double second_moment_z = 0.0;                       // J_z = integral y^2 dA: bending about z, m^4
   double torsion_constant = 0.0;                      // J_t, m^4
   double retardation = 0.0;  // eta / E of Kelvin and Voigt, s: damping = stiffness * this
+
+  bool operator==(const FlexibleBeam&) const = default;
 };
 
 struct Link {
@@ -48,6 +52,8 @@ struct Link {
   // are those of the matrix, I_xy = -integral(x y dm).
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
   std::optional<FlexibleBeam> flexible{};
+
+  bool operator==(const Link&) const = default;
 };
 
 // Motions of a joint's child frame in its parent frame, in the order of its coordinates:
@@ -85,6 +91,8 @@ struct Friction {
   double sigma1 = 0.0;  // damping of the bristle, s/m
   double sigma2 = 0.0;  // viscous, s/m
   double v_d = 0.0;     // damping speed, m/s; 0: sigma1 does not depend on speed
+
+  bool operator==(const Friction&) const = default;
 };
 
 // Friction in a revolute, prismatic or cylindrical joint, driven by its own reaction. The joint is
@@ -98,6 +106,8 @@ struct JointFriction {
   double radius = 0.0;   // of the sliding surface, m
   double length = 0.0;   // between the supports, m; 0: moments are not felt
   double preload = 0.0;  // N
+
+  bool operator==(const JointFriction&) const = default;
 };
 
 // A joint of the spanning tree. X_parent_child = frame * X_joint(q) * child_frame^-1.
@@ -120,6 +130,8 @@ struct Joint {
   std::vector<double> damping;    // (nv) b, N s/m or N m s/rad
   std::vector<double> rest;       // (nv) empty: zero
   std::optional<JointFriction> friction;
+
+  bool operator==(const Joint&) const = default;
 };
 
 // Number of velocities (degrees of freedom) and of positions of a joint.
@@ -163,6 +175,8 @@ struct Sde {
   std::optional<double> damping_ratio;
   // form three_springs: unit directions (rows); element i has stiffness[i], damping[i].
   Eigen::Matrix3d directions = Eigen::Matrix3d::Identity();
+
+  bool operator==(const Sde&) const = default;
 };
 
 // Revolute closure with radial clearance ([AugUrb18] sec. 4). The x axis of the bearing end and the
@@ -182,6 +196,8 @@ enum class ContactPoints { one, two };
 struct Material {
   double young = 207.0e9;  // E, Pa
   double poisson = 0.3;    // nu
+
+  bool operator==(const Material&) const = default;
 };
 
 struct Clearance {
@@ -200,11 +216,15 @@ struct Clearance {
   ContactPoints points = ContactPoints::one;
   FreeBristle free_bristle = FreeBristle::reset;
   std::optional<Friction> friction;
+
+  bool operator==(const Clearance&) const = default;
 };
 
 struct ClosureEnd {
   std::string link;  // a link or kGround
   Frame frame;       // {c,e} in that link
+
+  bool operator==(const ClosureEnd&) const = default;
 };
 
 // Force convention: the reported closure force acts on `first` at the closure point, its opposite
@@ -220,6 +240,8 @@ struct Closure {
   double beta = 50.0;    // Baumgarte, 1/s
   Sde sde;
   Clearance clearance;
+
+  bool operator==(const Closure&) const = default;
 };
 
 // Directions that a joint of this type blocks, as a bit mask (bit d for Direction d).
@@ -233,11 +255,13 @@ unsigned shut_directions(const Closure& closure);
 // f = 3 s^2 - 2 s^3; constant f = 1; table: linear interpolation of (times, values), ends held.
 enum class CourseShape { constant, ramp, smooth, table };
 struct Course {
-  CourseShape shape = CourseShape::constant;
+  CourseShape shape = CourseShape::ramp;
   double value = 0.0;     // N or N m
   double duration = 0.0;  // s
   std::vector<double> times;
   std::vector<double> values;
+
+  bool operator==(const Course&) const = default;
 };
 
 // Resistance against a joint's motion: linear value * (v / at_speed), quadratic
@@ -247,6 +271,8 @@ struct ResistanceLaw {
   ResistanceShape shape = ResistanceShape::linear;
   double value = 0.0;     // N or N m at at_speed
   double at_speed = 1.0;  // rad/s or m/s
+
+  bool operator==(const ResistanceLaw&) const = default;
 };
 
 // drive: generalised force on one joint coordinate. resistance: against one joint coordinate.
@@ -263,6 +289,8 @@ struct Load {
   bool follows_link = false;  // direction is given in the link frame (else in the ground frame)
   Course course;              // drive, link_force, link_torque
   ResistanceLaw law;          // resistance
+
+  bool operator==(const Load&) const = default;
 };
 
 // A point of a link whose motion is asked for; it takes no part in the dynamics.
@@ -270,6 +298,8 @@ struct ChosenPoint {
   std::string name;
   std::string link;                                    // a link or kGround
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  // in the link frame, m
+
+  bool operator==(const ChosenPoint&) const = default;
 };
 
 struct Linkage {
@@ -280,6 +310,8 @@ struct Linkage {
   std::vector<Closure> closures;
   std::vector<Load> loads;
   std::vector<ChosenPoint> points;
+
+  bool operator==(const Linkage&) const = default;
 };
 
 }  // namespace linkstudy

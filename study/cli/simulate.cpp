@@ -42,7 +42,7 @@ int run_simulate(const CommandLine& line) {
   }
   const SimulationOutcome outcome =
       run_watched(preparation, input.options, observers, line.timeout_s.value_or(0.0),
-                  *find_progress_mode(line.progress));
+                  *find_word<ProgressMode>(line.progress));
   const double wall_s = seconds_since(begin);
   if (line.csv) write_asked(*line.csv, csv_of(series_table(observers.series.front())));
   if (!outcome.warning.empty()) {

@@ -9,7 +9,19 @@
 // J_t is the torsion constant in torque = G J_t twist; it is J_y + J_z for circles only.
 #pragma once
 
+#include "core/base/words.h"
+
 namespace linkstudy {
+
+// How a section is written; given: by its moments.
+enum class SectionShape { circle, tube, rectangle, given };
+
+template <>
+inline constexpr auto kWords<SectionShape> =
+    make_words<SectionShape>({{SectionShape::circle, "circle"},
+                              {SectionShape::tube, "tube"},
+                              {SectionShape::rectangle, "rectangle"},
+                              {SectionShape::given, "given"}});
 
 struct BeamSection {
   double second_moment_y = 0.0;   // integral z^2 dA: bending about y

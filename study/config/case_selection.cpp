@@ -44,8 +44,8 @@ std::vector<CasePositions> along_axes(const std::vector<std::size_t>& sizes, std
 
 }  // namespace
 
-std::optional<std::uint64_t> count_cases(DesignType design, const std::vector<std::size_t>& sizes) {
-  if (design == DesignType::list && !sizes.empty()) return sizes.front();
+std::optional<std::uint64_t> count_cases(Design design, const std::vector<std::size_t>& sizes) {
+  if (design == Design::list && !sizes.empty()) return sizes.front();
   std::uint64_t count = 1;
   for (const std::size_t size : sizes) {
     if (size > 0 && count > max_points / size) return std::nullopt;
@@ -54,10 +54,10 @@ std::optional<std::uint64_t> count_cases(DesignType design, const std::vector<st
   return count;
 }
 
-std::vector<CasePositions> choose_cases(DesignType design, const std::vector<std::size_t>& sizes,
+std::vector<CasePositions> choose_cases(Design design, const std::vector<std::size_t>& sizes,
                                         std::size_t most) {
   std::vector<CasePositions> cases;
-  if (design == DesignType::list && !sizes.empty()) {
+  if (design == Design::list && !sizes.empty()) {
     for (const std::size_t i : spaced(sizes.front(), most)) cases.emplace_back(sizes.size(), i);
     return cases;
   }

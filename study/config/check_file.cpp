@@ -13,9 +13,9 @@ std::vector<Diagnostic> check_file(const std::string& path) {
 void check_file(const std::string& path, Diagnostics& diagnostics) {
   const std::optional<Tree> tree = read_toml_file(path, diagnostics);
   if (!tree) return;
-  const std::optional<std::string> kind = kind_of(*tree, diagnostics);
+  const std::optional<FileKind> kind = kind_of(*tree, diagnostics);
   if (!kind) return;
-  if (*kind != "model") {
+  if (*kind != FileKind::model) {
     read_study(path, {}, diagnostics);
     return;
   }

@@ -18,11 +18,8 @@ struct JointKind {
   bool is_known = false;  // false: the type is absent or wrong
 };
 
-// The enumerator whose position in `words` of the row equals that of the text.
-std::optional<std::size_t> word_index(const std::vector<std::string>& words,
-                                      const std::string& text);
-
-std::optional<JointType> joint_type_of(const std::string& word);
+// The record of a list such as "joint" with this name, or nothing.
+const Tree* find_named(const Tree& model, std::string_view list, const std::string& name);
 
 JointKind joint_kind_of(const Tree& joint);
 
@@ -41,10 +38,5 @@ std::vector<std::string> coordinate_units(const JointKind& kind, std::string_vie
 
 // The start when none is written: zero, a unit quaternion where one is used.
 Tree start_position(const JointKind& kind);
-
-// The unit of the value at `path`, where its row leaves a choice; of an array, of its first entry.
-// `model` may be validated or not. Nothing when the neighbours do not tell.
-std::optional<std::string> unit_of_path(const Tree& model, const std::string& unit,
-                                        const std::string& path);
 
 }  // namespace linkstudy

@@ -1,13 +1,16 @@
 // The key tables: every key an input may have, declared once. From the same rows come validation,
-// defaults, unit conversion, `linkstudy describe` and configs/README.md.
+// defaults, unit conversion, the members that are filled (fields.h, fill.h), `linkstudy describe`
+// and configs/README.md.
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "study/config/scope.h"
 #include "study/config/tree.h"
 
 namespace linkstudy {
@@ -64,14 +67,37 @@ struct Effect {
   bool stands_by = false;
 };
 
+// What is known where a value is read.
+struct Reading {
+  Tree& document;       // from the root, validated
+  const Tree* element;  // the element of [[tables]] that the value is in, if any
+  const Scope& scope;
+  Diagnostics& diagnostics;
+
+  void report(Tree& value, std::string message, std::string remedy) const {
+    diagnostics.add(value.at, std::move(message), std::move(remedy));
+    value.kind = Tree::Kind::invalid;
+  }
+};
+
+// How a row fills the record of its table; made by Fields (fields.h). A row without is for another
+// row of the table, which reads both.
+struct Binding {
+  using Fill = std::function<void(void* record, Tree& value, const Reading& reading)>;
+  Fill fill;                                 // of a value; of a table, once its keys are filled
+  std::function<void*(void* record)> enter;  // of a table: the record of its keys (a new element)
+  Fill finish;                               // of a table: what its keys say together
+};
+
 struct KeyRow {
-  std::string path;  // "link.*.mass"; * stands for the name (or position) of an element
+  std::string path = {};  // "link.*.mass"; * stands for the name (or position) of an element
   KeyType type = KeyType::number;
   std::string meaning = {};
   std::string unit = {};  // alternatives "N|N m" are told apart by the neighbours
   Range range = {};
   bool required = false;
-  std::string standard = {};              // default, as TOML text; empty: none
+  std::string standard = {};              // default, as TOML text; empty: none. Of a row with a
+                                          // member: what a new record has
   std::vector<std::string> words = {};    // of a word
   std::vector<std::string> planned = {};  // words of a later version
   std::vector<int> counts = {};           // allowed lengths of `numbers`, `texts` and `scalars`
@@ -79,6 +105,12 @@ struct KeyRow {
       {};  // of the rows of a group, one at most is given (exactly one, if required)
   Condition only = {};
   std::vector<Effect> effects = {};  // all must hold; none: it always has one
+  // Where the unit has alternatives: those that hold, one for each entry or one for all. Nothing
+  // where the neighbours do not tell. The tree need not be validated.
+  std::function<std::vector<std::string>(const Tree& document, const Tree& element)> units_by = {};
+  // A default that depends on neighbours in the element of [[tables]], or none.
+  std::function<std::optional<Tree>(const Tree& element)> derive = {};
+  Binding bind = {};
 };
 
 // Rows as a tree that follows the tree of the input.

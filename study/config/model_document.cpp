@@ -4,9 +4,9 @@
 
 #include "core/flexible/rigid_finite_elements.h"
 #include "core/topology/nearest_name.h"
-#include "study/config/joint_units.h"
 #include "study/config/toml_reader.h"
 #include "study/config/validate.h"
+#include "study/config/value_path.h"
 
 namespace linkstudy {
 namespace {
@@ -15,11 +15,11 @@ constexpr const char* kKinds = "supported: model, study, tune";
 
 std::optional<Tree> require_model(std::optional<Tree> tree, Diagnostics& diagnostics) {
   if (!tree) return std::nullopt;
-  const std::optional<std::string> kind = kind_of(*tree, diagnostics);
+  const std::optional<FileKind> kind = kind_of(*tree, diagnostics);
   if (!kind) return std::nullopt;
-  if (*kind == "model") return tree;
+  if (*kind == FileKind::model) return tree;
   diagnostics.add(tree->find("kind")->at,
-                  fmt::format("a model is expected here, got kind = '{}'", *kind),
+                  fmt::format("a model is expected here, got kind = '{}'", name_of(*kind)),
                   "name a file with kind = \"model\"");
   return std::nullopt;
 }
@@ -38,7 +38,7 @@ bool is_single_value(KeyType type) {
 
 }  // namespace
 
-std::optional<std::string> kind_of(const Tree& document, Diagnostics& diagnostics) {
+std::optional<FileKind> kind_of(const Tree& document, Diagnostics& diagnostics) {
   const Tree* format = document.find("format");
   if (format != nullptr && format->is_numeric() && format->as_number() != 1.0) {
     diagnostics.add(format->at, fmt::format("format must be 1, got {}", shown(*format)),
@@ -51,12 +51,13 @@ std::optional<std::string> kind_of(const Tree& document, Diagnostics& diagnostic
     return std::nullopt;
   }
   const std::string word = kind->is(Tree::Kind::text) ? kind->text : std::string();
-  if (word == "model" || word == "study" || word == "tune") return word;
+  if (const std::optional<FileKind> known = find_word<FileKind>(word)) return known;
   if (word == "converge") {
     diagnostics.add(kind->at, "kind = 'converge' is not supported in this version", kKinds);
     return std::nullopt;
   }
-  const std::vector<std::string> kinds = {"model", "study", "tune"};
+  std::vector<std::string> kinds;
+  for (const Word<FileKind>& known : kWords<FileKind>) kinds.emplace_back(known.text);
   const std::string near = nearest_name(word, kinds);
   diagnostics.add(kind->at, fmt::format("kind must be model, study or tune, got {}", shown(*kind)),
                   near.empty() ? kKinds : fmt::format("did you mean '{}'?", near));
@@ -134,7 +135,8 @@ std::optional<Parameter> parameter_for(const ModelDocument& document, const std:
   if (row == nullptr || !is_single_value(row->type)) return std::nullopt;
   std::optional<std::string> unit;
   for (const std::string& one : expand_path(document.tree(), model_schema(), path)) {
-    const auto own = unit_of_path(document.tree(), row->unit, one).value_or(std::string());
+    const auto own =
+        unit_of_path(document.tree(), model_schema(), *row, one).value_or(std::string());
     if (unit.value_or(own) != own) return std::nullopt;
     unit = own;
   }

@@ -9,6 +9,14 @@
 
 namespace linkstudy {
 
+// What an input describes.
+enum class FileKind { model, study, tune };
+
+template <>
+inline constexpr auto kWords<FileKind> = make_words<FileKind>({{FileKind::model, "model"},
+                                                               {FileKind::study, "study"},
+                                                               {FileKind::tune, "tune"}});
+
 class ModelDocument {
  public:
   // Reads the text only: whether the values are right is said by with().
@@ -44,8 +52,8 @@ std::optional<ModelInput> read_model_file(const ModelDocument& document,
 // Unit and meaning of a path of the model; nothing when the path names no single value.
 std::optional<Parameter> parameter_for(const ModelDocument& document, const std::string& path);
 
-// The kind of an input: "model", "study" or "tune". Nothing, and a report, when the kind is absent,
-// wrong or of a later version, or the format is not 1.
-std::optional<std::string> kind_of(const Tree& document, Diagnostics& diagnostics);
+// The kind of an input. Nothing, and a report, when the kind is absent, wrong or of a later
+// version, or the format is not 1.
+std::optional<FileKind> kind_of(const Tree& document, Diagnostics& diagnostics);
 
 }  // namespace linkstudy

@@ -1,42 +1,52 @@
-// Parts of model_rows() and of other tables.
+// The keys of a model, a table each, bound to the records they fill.
 #pragma once
 
-#include <string>
-#include <utility>
-#include <vector>
-
-#include "study/config/key.h"
+#include "core/topology/linkage_words.h"
+#include "study/config/fields.h"
+#include "study/config/model_reader.h"
 
 namespace linkstudy {
 
+// What a load is called: a drive after what it puts on its coordinate.
+enum class LoadKind { torque, force, resistance, link_force, link_torque };
+
+template <>
+inline constexpr auto kWords<LoadKind> =
+    make_words<LoadKind>({{LoadKind::torque, "torque", "on a joint coordinate that turns"},
+                          {LoadKind::force, "force", "on one that shifts"},
+                          {LoadKind::resistance, "resistance", "against the motion of one"},
+                          {LoadKind::link_force, "link_force", "at a point of a link"},
+                          {LoadKind::link_torque, "link_torque", "on a link"}});
+
+// Position, and one of four ways to say a rotation.
+Fields<Frame> frame_fields();
+// The law of LuGre.
+Fields<Friction> friction_fields();
+// [[link]] flexible.
+Fields<FlexibleBeam> flexible_fields();
+
+// Clearance and contact of a closure, two tables of one record.
+Fields<Clearance> clearance_fields();
+Fields<Clearance> contact_fields();
+
+// [[joint]], [[closure]], [[load]], [simulation], [kinematics].
+Fields<Joint> joint_fields();
+Fields<Closure> closure_fields();
+Fields<Load> load_fields();
+Fields<SimulationOptions> simulation_fields();
+Fields<KinematicsOptions> kinematics_fields();
+
 // format, kind and name, with which every file opens.
-void add_file_rows(std::vector<KeyRow>& rows, const std::string& kind);
-
-// Pose of a frame: a position and one of four ways to say a rotation.
-void add_frame_rows(std::vector<KeyRow>& rows, const std::string& path);
-
-void add_flexible_rows(std::vector<KeyRow>& rows);
-
-// Effect where a switch holds one of some words (key.h).
-inline Effect acts_where(std::string key, std::vector<std::string> words, std::string needs = {}) {
-  return {std::move(key), std::move(words), std::move(needs), false};
+template <class Input>
+void add_file_fields(Fields<Input>& fields, const std::string& kind) {
+  fields.read("format", {.type = KeyType::integer,
+                         .meaning = "version of the input format: 1",
+                         .range = {.low = 1, .high = 1},
+                         .required = true});
+  fields.read("kind",
+              {.type = KeyType::word, .meaning = "what the file describes", .required = true});
+  fields.back().words.push_back(kind);
+  fields.add("name", &Input::name, {.meaning = "title in tables and plots"});
 }
-
-// The same of what is written for the switch to choose from.
-inline Effect stands_by(std::string key, std::vector<std::string> words) {
-  return {std::move(key), std::move(words), {}, true};
-}
-
-// Of a table with a key `enabled`.
-inline Effect when_enabled(const std::string& path) {
-  return stands_by(path + ".enabled", {"true"});
-}
-
-// The law of LuGre, in a table of its own.
-void add_friction_rows(std::vector<KeyRow>& rows, const std::string& path);
-
-void add_clearance_rows(std::vector<KeyRow>& rows);
-void add_kinematics_rows(std::vector<KeyRow>& rows);
-void add_closure_rows(std::vector<KeyRow>& rows);
 
 }  // namespace linkstudy

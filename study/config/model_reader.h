@@ -1,7 +1,5 @@
-// A validated model tree as a Linkage and the options of a run. Judges what needs more than one
-// key: rotations, units that follow the joint type, stiffness by direction, loads and drives that
-// fit their coordinate; then the checks of core/topology, their paths turned into places in the
-// file.
+// A validated model tree as a Linkage and the options of a run: filled by the rows of the key
+// tables, then judged by the checks of core/topology, their paths turned into places in the file.
 #pragma once
 
 #include "core/kinematics/drive_course.h"
@@ -16,7 +14,7 @@ struct ModelInput {
   Linkage rigid;  // with every flexible link as one rigid link
   SimulationOptions options;
   KinematicsOptions kinematics;
-  std::string name;
+  std::string name = "unnamed";
   Tree resolved;  // every default and override filled in: the text of resolved.toml
   std::vector<Ineffective> ineffective;  // what was written and has none, whatever the verb
 };

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "core/topology/nearest_name.h"
-#include "study/config/joint_units.h"
 #include "study/config/toml_reader.h"
 #include "study/config/unit.h"
 #include "study/config/value_path.h"
@@ -29,19 +28,10 @@ bool holds_keys(KeyType type) {
   return type == KeyType::table || type == KeyType::tables || type == KeyType::overrides;
 }
 
-Tree zeros(std::size_t count) {
-  return Tree::make_array(std::vector<Tree>(count, Tree::make_number(0.0)));
-}
-
 // The array a path enters when the file does not write it.
 std::optional<Tree> standard_array(const Tree& owner, const KeyNode& node) {
   if (node.standard) return node.standard;
-  if (node.row.path == "joint.*.initial.position") return start_position(joint_kind_of(owner));
-  for (const char* array : {"joint.*.initial.velocity", "joint.*.spring.stiffness",
-                            "joint.*.spring.damping", "joint.*.spring.rest"}) {
-    if (node.row.path == array) return zeros(velocity_units(joint_kind_of(owner)).size());
-  }
-  return std::nullopt;
+  return node.row.derive ? node.row.derive(owner) : std::nullopt;
 }
 
 // Walks one path and makes what it needs on the way.

@@ -121,7 +121,7 @@ class CaseCheck {
       : input_(input),
         written_(written),
         diagnostics_(diagnostics),
-        verb_(input.kind == StudyKind::study ? "study" : "tune"),
+        verb_(name_of(input.kind)),
         options_(watch(command_line)) {
     for (std::size_t i = 0; i < written.size(); ++i) {
       varied_.push_back({path_of(input, i), place_of(input, i), false, std::nullopt});
@@ -257,7 +257,7 @@ bool report_size(const StudyInput& input, const WrittenValues& written, Diagnost
 
 void merge_equal_values(StudyInput& input, WrittenValues& written, Diagnostics& diagnostics) {
   if (input.vary.size() != written.size()) return;
-  if (input.design == DesignType::list) {
+  if (input.design == Design::list) {
     if (!written.empty()) merge_rows(input, written, 0, written.size(), diagnostics);
     return;
   }

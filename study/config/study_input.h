@@ -4,15 +4,38 @@
 #pragma once
 
 #include "study/config/model_document.h"
+#include "study/config/search_options.h"
+#include "study/record/design_kind.h"
 
 namespace linkstudy {
 
 enum class StudyKind { study, tune };
-enum class DesignType { grid, list };
 enum class ErrorNorm { max, rms };
 enum class ErrorScale { component, vector };
 enum class Reduction { max, min, max_abs, rms, mean, last };
 enum class FailurePolicy { record, abort };
+
+template <>
+inline constexpr auto kWords<StudyKind> = make_words<StudyKind>({{StudyKind::study, "study"},
+                                                                 {StudyKind::tune, "tune"}});
+template <>
+inline constexpr auto kWords<ErrorNorm> = make_words<ErrorNorm>(
+    {{ErrorNorm::max, "max", "largest"}, {ErrorNorm::rms, "rms", "root-mean-square"}});
+template <>
+inline constexpr auto kWords<ErrorScale> =
+    make_words<ErrorScale>({{ErrorScale::component, "component", "each component's reference"},
+                            {ErrorScale::vector, "vector", "that of the vector"}});
+template <>
+inline constexpr auto kWords<Reduction> = make_words<Reduction>({{Reduction::max, "max"},
+                                                                 {Reduction::min, "min"},
+                                                                 {Reduction::max_abs, "max_abs"},
+                                                                 {Reduction::rms, "rms"},
+                                                                 {Reduction::mean, "mean"},
+                                                                 {Reduction::last, "last"}});
+template <>
+inline constexpr auto kWords<FailurePolicy> =
+    make_words<FailurePolicy>({{FailurePolicy::record, "record", "note it and go on"},
+                               {FailurePolicy::abort, "abort", "stop"}});
 
 struct TimeWindow {
   double first = 0.0;  // s
@@ -73,14 +96,6 @@ struct TuneInput {
   Location at;
 };
 
-struct SearchOptions {
-  int scan = 16;
-  int batch = 8;
-  double resolution = 0.001;  // decades
-  int max_evaluations = 200;
-  double delta = 0.02;  // certificate step
-};
-
 // A number of failed evaluations, or a share of all in percent.
 struct FailureLimit {
   double value = 0.0;
@@ -96,12 +111,12 @@ struct RunOptions {
 
 struct StudyInput {
   StudyKind kind = StudyKind::study;
-  std::string name;
+  std::string name = "unnamed";
   std::string file;
   std::shared_ptr<const ModelDocument> model;
   std::optional<ReferenceInput> reference;
   std::vector<Override> base_set;
-  DesignType design = DesignType::grid;
+  Design design = Design::grid;
   std::vector<VaryInput> vary;
   std::vector<TuneInput> tune;
   std::vector<MatchInput> match;

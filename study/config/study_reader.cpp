@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "study/config/joint_units.h"
+#include "study/config/fill.h"
 #include "study/config/precedence.h"
-#include "study/config/read_value.h"
 #include "study/config/study_cases.h"
+#include "study/config/study_checks.h"
 #include "study/config/study_input.h"
-#include "study/config/study_records.h"
 #include "study/config/toml_reader.h"
 #include "study/config/validate.h"
 #include "study/config/value_list.h"
@@ -30,14 +29,11 @@ class StudyReader {
 
   StudyInput read(StudyKind kind) {
     input_.kind = kind;
-    input_.name = word_of(study_, "name");
-    read_records(study_, input_, diagnostics_);
-    input_.model = load_model(study_);
-    if (const Tree* base = study_.find("base")) input_.base_set = read_set(*base);
-    read_reference();
-    read_load_cases();
+    const KeyNode& schema = kind == StudyKind::tune ? tune_schema() : study_schema();
+    fill_record(&input_, study_, schema, diagnostics_);
+    check_study(study_, kind, diagnostics_);
+    load_models();
     write_command_line();
-    if (kind == StudyKind::tune) require_match();
     if (input_.model) read_parameters();
     require_one_source(model_set_, input_, diagnostics_);
     if (has_rows_) check_cases(input_, written_, model_set_, diagnostics_);
@@ -46,11 +42,6 @@ class StudyReader {
   }
 
  private:
-  static std::vector<Override> read_set(const Tree& owner) {
-    const Tree* set = owner.find("set");
-    return set != nullptr ? flatten_overrides(*set) : std::vector<Override>();
-  }
-
   // A model file that cannot be opened is an error of the line that names it.
   Document load_model(const Tree& owner) {
     const Tree* name = owner.find("model");
@@ -69,24 +60,13 @@ class StudyReader {
     return document ? std::make_shared<const ModelDocument>(std::move(*document)) : nullptr;
   }
 
-  void read_reference() {
-    const Tree* tree = study_.find("reference");
-    if (tree == nullptr || !tree->is(Kind::table)) return;
-    ReferenceInput reference;
-    reference.at = tree->at;
-    reference.model = tree->find("model") != nullptr ? load_model(*tree) : input_.model;
-    reference.set = read_set(*tree);
-    input_.reference = std::move(reference);
-  }
-
-  void read_load_cases() {
-    const Tree* cases = study_.find("load_case");
-    if (cases == nullptr || !cases->is(Kind::array)) return;
-    for (const Tree& tree : cases->items) {
-      if (tree.is(Kind::table)) {
-        input_.load_case.push_back({word_of(tree, "name"), read_set(tree), tree.at});
-      }
-    }
+  // The reference is the same model where it names no other.
+  void load_models() {
+    input_.model = load_model(study_);
+    if (!input_.reference) return;
+    const Tree& tree = *study_.find("reference");
+    const bool has_own = tree.find("model") != nullptr;
+    input_.reference->model = has_own ? load_model(tree) : input_.model;
   }
 
   void write_command_line() {
@@ -105,12 +85,6 @@ class StudyReader {
     Tree written = Tree::make_table(table->at);
     for (const Override& one : set) written.set(one.path, one.value);
     *table = std::move(written);
-  }
-
-  void require_match() {
-    if (study_.find("match") != nullptr) return;
-    diagnostics_.add(study_.at, "a tune needs at least one [[match]]",
-                     "add [[match]] with signal and tolerance");
   }
 
   // Paths are looked up in the model as base.set leaves it.
@@ -209,7 +183,7 @@ class StudyReader {
   }
 
   bool have_equal_lengths() {
-    if (input_.design != DesignType::list) return true;
+    if (input_.design != Design::list) return true;
     bool are_equal = true;
     for (const VaryInput& vary : input_.vary) {
       const std::size_t first = input_.vary.front().values.size();
@@ -246,16 +220,16 @@ std::optional<StudyInput> read_study(const std::string& path, std::span<const Ov
                                      Diagnostics& diagnostics) {
   Diagnostics found;
   std::optional<Tree> tree = read_toml_file(path, found);
-  const std::optional<std::string> kind = tree ? kind_of(*tree, found) : std::nullopt;
-  if (kind && *kind == "model") {
+  const std::optional<FileKind> kind = tree ? kind_of(*tree, found) : std::nullopt;
+  if (kind && *kind == FileKind::model) {
     found.add(tree->find("kind")->at, "a study or tune is expected here, got kind = 'model'",
               "name a file with kind = \"study\" or kind = \"tune\"");
   }
-  if (!found.empty()) {
+  if (!kind || !found.empty()) {
     diagnostics.append(found);
     return std::nullopt;
   }
-  const bool is_tune = *kind == "tune";
+  const bool is_tune = *kind == FileKind::tune;
   const KeyNode& schema = is_tune ? tune_schema() : study_schema();
   std::vector<Override> model_set;
   for (const Override& override : set) {

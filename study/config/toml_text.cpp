@@ -4,26 +4,10 @@
 
 #include <algorithm>
 
+#include "study/record/utf8.h"
+
 namespace linkstudy {
 namespace {
-
-// Length of the UTF-8 sequence that starts at `text[i]`, 0 when there is none (overlong forms,
-// surrogates and values above U+10FFFF included).
-std::size_t utf8_length(std::string_view text, std::size_t i) {
-  const auto byte = [&](std::size_t k) {
-    return i + k < text.size() ? static_cast<unsigned char>(text[i + k]) : 0u;
-  };
-  const unsigned first = byte(0);
-  if (first < 0x80) return 1;
-  const std::size_t length = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
-  if (first < 0xC2 || first > 0xF4) return 0;
-  for (std::size_t k = 1; k < length; ++k) {
-    if ((byte(k) & 0xC0u) != 0x80u) return 0;
-  }
-  const bool overlong = (first == 0xE0 && byte(1) < 0xA0) || (first == 0xF0 && byte(1) < 0x90);
-  const bool outside = (first == 0xED && byte(1) > 0x9F) || (first == 0xF4 && byte(1) > 0x8F);
-  return overlong || outside ? 0 : length;
-}
 
 // Follows a text byte by byte: what of it is string or comment, and how deep the rest is.
 class DepthScan {
@@ -110,7 +94,7 @@ bool check_toml_text(std::string_view text, const std::shared_ptr<const std::str
   DepthScan scan(text);
   int line = 1, column = 1;
   for (std::size_t i = 0; i < text.size();) {
-    const std::size_t length = utf8_length(text, i);
+    const std::size_t length = utf8_length(text.substr(i));
     if (length == 0) {
       diagnostics.add({file, line, column},
                       fmt::format("the file is not UTF-8 text, got byte 0x{:02X}",

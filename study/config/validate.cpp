@@ -13,29 +13,6 @@ namespace {
 
 using Kind = Tree::Kind;
 
-// Where the walk is; texts are made from it only when something is reported.
-struct Scope {
-  const Scope* up = nullptr;
-  std::string_view key;
-  const Tree* element = nullptr;  // of an element of [[tables]]
-  std::size_t index = 0;
-};
-
-std::string element_title(const Scope& scope) {
-  const Tree* name = scope.element->find("name");
-  const std::string list(scope.up->key);
-  if (name != nullptr && name->is(Kind::text)) return fmt::format("{} '{}'", list, name->text);
-  return fmt::format("{} {}", list, scope.index);
-}
-
-// "link 'crank': mass", "joint 'A': frame.position", "simulation.step"
-std::string subject_of(const Scope& scope) {
-  if (scope.element != nullptr) return element_title(scope) + ": ";
-  const std::string above = scope.up == nullptr ? std::string() : subject_of(*scope.up);
-  const bool dotted = !above.empty() && !above.ends_with(": ");
-  return above + (dotted ? "." : "") + std::string(scope.key);
-}
-
 std::string described_type(const KeyRow& row, KeyType type) {
   std::string unit = row.unit.empty() || row.unit == "1" ? std::string() : " in " + row.unit;
   for (std::size_t at = 0; (at = unit.find('|', at)) != std::string::npos;) {

@@ -98,6 +98,30 @@ std::optional<ValuePath> find_value_path(const Tree& document, const KeyNode& sc
   return std::move(finder).path();
 }
 
+std::optional<std::string> unit_of_path(const Tree& document, const KeyNode& schema,
+                                        const KeyRow& row, const std::string& path) {
+  if (!row.units_by) return row.unit;
+  const std::optional<ValuePath> value = find_value_path(document, schema, path);
+  if (!value) return std::nullopt;
+  const Tree* tree = &document;
+  const Tree* element = nullptr;
+  for (std::size_t i = 0; i < value->parts.size() && tree != nullptr; ++i) {
+    const std::optional<std::size_t> index = parse_index(value->parts[i]);
+    if (tree->is(Kind::array) && index && *index < tree->items.size()) {
+      tree = &tree->items[*index];
+      if (tree->is(Kind::table)) element = tree;
+    } else if (tree->is(Kind::table) && value->nodes[i] != nullptr) {
+      tree = tree->find(value->parts[i]);
+    }
+  }
+  if (element == nullptr) return std::nullopt;
+  const std::vector<std::string> units = row.units_by(document, *element);
+  if (units.size() == 1) return units.front();
+  const bool is_entry = value->nodes.back() == nullptr;
+  const std::size_t entry = is_entry ? parse_index(value->parts.back()).value_or(0) : 0;
+  return entry < units.size() ? std::optional(units[entry]) : std::nullopt;
+}
+
 PathRelation relation_of(const ValuePath& first, const ValuePath& second) {
   const std::size_t common = std::min(first.parts.size(), second.parts.size());
   for (std::size_t i = 0; i < common; ++i) {

@@ -33,6 +33,11 @@ PathRelation relation_of(const ValuePath& first, const ValuePath& second);
 PathRelation relation_of(const Tree& document, const KeyNode& schema, const std::string& first,
                          const std::string& second);
 
+// The unit of the value at `path`, which names one of the row; of an array, of its first entry.
+// `document` may be validated or not. Nothing when the neighbours do not tell.
+std::optional<std::string> unit_of_path(const Tree& document, const KeyNode& schema,
+                                        const KeyRow& row, const std::string& path);
+
 // A position in a list, written as a part of a path; nothing where it is none.
 std::optional<std::size_t> parse_index(const std::string& text);
 

@@ -10,33 +10,21 @@ namespace linkstudy {
 namespace {
 
 struct Kind {
-  Design design;
-  std::string_view name;
   std::uint64_t (*count)(const std::vector<Axis>& axes);
   Point (*make)(const std::vector<Axis>& axes, std::uint64_t id);
 };
 
 // The only list of designs, in the order of the enumeration.
-constexpr std::array<Kind, 2> kinds = {{
-    {Design::list, "list", count_list, make_list_point},
-    {Design::grid, "grid", count_grid, make_grid_point},
+constexpr std::array<Kind, kWords<Design>.size()> kKinds = {{
+    {count_grid, make_grid_point},
+    {count_list, make_list_point},
 }};
 
 const Kind& kind_of(Design design) {
-  return kinds[static_cast<std::size_t>(design)];
+  return kKinds[static_cast<std::size_t>(design)];
 }
 
 }  // namespace
-
-std::string_view design_name(Design design) {
-  return kind_of(design).name;
-}
-
-std::optional<Design> find_design(std::string_view name) {
-  for (const Kind& kind : kinds)
-    if (kind.name == name) return kind.design;
-  return std::nullopt;
-}
 
 std::uint64_t count_points(Design design, const std::vector<Axis>& axes) {
   check_axes(axes);

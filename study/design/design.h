@@ -4,18 +4,12 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
-#include <string_view>
 #include <vector>
 
 #include "study/design/axis.h"
+#include "study/record/design_kind.h"
 
 namespace linkstudy {
-
-enum class Design { list, grid };
-
-std::string_view design_name(Design design);
-std::optional<Design> find_design(std::string_view name);
 
 std::uint64_t count_points(Design design, const std::vector<Axis>& axes);
 

@@ -76,7 +76,7 @@ class TimesCheck {
   std::vector<std::vector<Override>> points_of_study() const {
     std::vector<std::size_t> sizes;
     for (const VaryInput& vary : input_.vary) {
-      const bool counts = input_.design == DesignType::list || decides_times(vary.parameter.path);
+      const bool counts = input_.design == Design::list || decides_times(vary.parameter.path);
       sizes.push_back(counts ? vary.values.size() : 1);
     }
     std::vector<std::vector<Override>> points;

@@ -3,7 +3,11 @@
 namespace linkstudy {
 
 std::vector<std::string> cause_words() {
-  return {kCauseNames.begin(), kCauseNames.end()};
+  std::vector<std::string> words;
+  for (std::size_t i = 0; i < kWords<Cause>.size(); ++i) {
+    words.emplace_back(name_of(static_cast<Cause>(i)));
+  }
+  return words;
 }
 
 }  // namespace linkstudy

@@ -96,7 +96,7 @@ struct Evaluation {
 
 void visit_members(auto& archive, Like<Evaluation> auto& evaluation) {
   archive(evaluation.point);
-  archive.template as<std::uint8_t>(evaluation.status, kCauseNames.size());
+  archive.template as<std::uint8_t>(evaluation.status, kWords<Cause>.size());
   archive(evaluation.message, evaluation.responses, evaluation.attempts, evaluation.parent,
           evaluation.wall_s, evaluation.rank, evaluation.host);
 }

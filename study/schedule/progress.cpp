@@ -49,14 +49,6 @@ std::string tail(const ProgressState& state, const char* separator) {
 
 }  // namespace
 
-std::optional<ProgressMode> find_progress_mode(std::string_view name) {
-  if (name == "auto") return ProgressMode::automatic;
-  if (name == "bar") return ProgressMode::bar;
-  if (name == "line") return ProgressMode::line;
-  if (name == "none") return ProgressMode::none;
-  return std::nullopt;
-}
-
 ProgressMode choose_progress_mode(ProgressMode mode) {
   if (mode != ProgressMode::automatic) return mode;
   return isatty(STDERR_FILENO) ? ProgressMode::bar : ProgressMode::line;

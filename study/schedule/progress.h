@@ -11,12 +11,18 @@
 #include <string>
 #include <string_view>
 
+#include "core/base/words.h"
+
 namespace linkstudy {
 
 enum class ProgressMode { automatic, bar, line, none };
 
-// "auto", "bar", "line", "none".
-std::optional<ProgressMode> find_progress_mode(std::string_view name);
+template <>
+inline constexpr auto kWords<ProgressMode> =
+    make_words<ProgressMode>({{ProgressMode::automatic, "auto"},
+                              {ProgressMode::bar, "bar"},
+                              {ProgressMode::line, "line"},
+                              {ProgressMode::none, "none"}});
 
 // Automatic becomes a bar where standard error is a terminal, and lines elsewhere.
 ProgressMode choose_progress_mode(ProgressMode mode);

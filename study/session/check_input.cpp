@@ -11,8 +11,8 @@ void check_input(const std::string& path, Diagnostics& diagnostics) {
   if (!diagnostics.empty()) return;
   Diagnostics said_before;
   const std::optional<Tree> tree = read_toml_file(path, said_before);
-  const std::optional<std::string> kind = tree ? kind_of(*tree, said_before) : std::nullopt;
-  if (!kind || *kind == "model") return;
+  const std::optional<FileKind> kind = tree ? kind_of(*tree, said_before) : std::nullopt;
+  if (!kind || *kind == FileKind::model) return;
   const std::optional<StudyInput> input = read_study(path, {}, said_before);
   if (input) make_evaluator(*input, diagnostics);
 }

@@ -13,7 +13,7 @@ struct SessionOptions {
   std::vector<std::string> set;       // path=value, in the input already
   std::optional<double> walltime_s;
   bool fresh = false;              // overwrite what the directory holds
-  std::string progress = "auto";   // find_progress_mode (study/schedule/progress.h)
+  std::string progress = "auto";   // a word of ProgressMode
   std::string log_level = "info";  // of linkstudy.log
 };
 

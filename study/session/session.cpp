@@ -67,8 +67,9 @@ StudySession::StudySession(const SessionOptions& options, Evaluator& evaluator, 
       log_(log),
       total_(total),
       failures_(record.failure_count()),
-      progress_(*find_progress_mode(options.progress), most_evaluations(evaluator.input(), total),
-                record.evaluations().size(), Clock::now()) {}
+      progress_(*find_word<ProgressMode>(options.progress),
+                most_evaluations(evaluator.input(), total), record.evaluations().size(),
+                Clock::now()) {}
 
 void StudySession::evaluate(const std::vector<Point>& points) {
   check_failures();

@@ -16,13 +16,9 @@ std::vector<Axis> axes_of(const StudyInput& input) {
   return axes;
 }
 
-Design design_of(const StudyInput& input) {
-  return input.design == DesignType::list ? Design::list : Design::grid;
-}
-
 std::vector<Value> first_point(const StudyInput& input) {
   if (input.kind == StudyKind::tune) return {input.tune.front().low, base_step_of(input)};
-  return make_point(design_of(input), axes_of(input), 0).values;
+  return make_point(input.design, axes_of(input), 0).values;
 }
 
 }  // namespace
@@ -39,7 +35,7 @@ std::vector<Parameter> parameters_of(const StudyInput& input) {
 }
 
 std::vector<Point> points_of(const StudyInput& input) {
-  return make_points(design_of(input), axes_of(input));
+  return make_points(input.design, axes_of(input));
 }
 
 double base_step_of(const StudyInput& input) {

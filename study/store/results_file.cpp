@@ -109,7 +109,7 @@ void read_columns(const Table& study, StudyResults& results) {
 }
 
 Cause cause_of(std::uint8_t number) {
-  if (number >= kCauseNames.size()) {
+  if (number >= kWords<Cause>.size()) {
     throw StoreError(fmt::format("unknown status {}", number));
   }
   return static_cast<Cause>(number);

@@ -76,18 +76,6 @@ void conclude(Certificate& certificate) {
 
 }  // namespace
 
-std::string_view name_of(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::certified:
-      return "certified";
-    case Verdict::refuted:
-      return "refuted";
-    case Verdict::inconclusive:
-      break;
-  }
-  return "inconclusive";
-}
-
 CertificateTerms make_terms(const TuningProblem& problem, const TuningOptions& options,
                             const std::vector<double>& point, double margin_decades) {
   CertificateTerms terms{point, problem.variables, problem.components, options.delta, {}, {}, {}};

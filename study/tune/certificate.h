@@ -18,13 +18,27 @@
 #include <optional>
 #include <string_view>
 
+#include "core/base/words.h"
+
 #include "study/tune/evaluation_log.h"
 
 namespace linkstudy::tuning {
 
 enum class Verdict { certified, refuted, inconclusive };
 
-std::string_view name_of(Verdict verdict);
+}  // namespace linkstudy::tuning
+
+namespace linkstudy {
+
+template <>
+inline constexpr auto kWords<tuning::Verdict> =
+    make_words<tuning::Verdict>({{tuning::Verdict::certified, "certified"},
+                                 {tuning::Verdict::refuted, "refuted"},
+                                 {tuning::Verdict::inconclusive, "inconclusive"}});
+
+}  // namespace linkstudy
+
+namespace linkstudy::tuning {
 
 struct Claim {
   std::string name;       // "C0"

@@ -133,22 +133,6 @@ std::vector<Split> find_splits(const EvaluationLog& log) {
 
 }  // namespace
 
-std::string_view name_of(Side side) {
-  switch (side) {
-    case Side::feasible:
-      return "feasible";
-    case Side::too_soft:
-      return "too soft";
-    case Side::step_too_coarse:
-      return "step too coarse";
-    case Side::diverged:
-      return "diverged";
-    case Side::failed:
-      break;
-  }
-  return "failed";
-}
-
 std::vector<double> make_scan_values(const TunedVariable& variable, std::size_t count) {
   std::vector<double> values(count);
   const double decades = std::log10(variable.high / variable.low);

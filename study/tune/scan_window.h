@@ -19,6 +19,8 @@
 
 #include <string_view>
 
+#include "core/base/words.h"
+
 #include "study/tune/evaluation_log.h"
 
 namespace linkstudy::tuning {
@@ -28,7 +30,21 @@ inline constexpr double kSteepestRise = 8.0;
 
 enum class Side { feasible, too_soft, step_too_coarse, diverged, failed };
 
-std::string_view name_of(Side side);
+}  // namespace linkstudy::tuning
+
+namespace linkstudy {
+
+template <>
+inline constexpr auto kWords<tuning::Side> =
+    make_words<tuning::Side>({{tuning::Side::feasible, "feasible"},
+                              {tuning::Side::too_soft, "too soft"},
+                              {tuning::Side::step_too_coarse, "step too coarse"},
+                              {tuning::Side::diverged, "diverged"},
+                              {tuning::Side::failed, "failed"}});
+
+}  // namespace linkstudy
+
+namespace linkstudy::tuning {
 
 struct ScanPoint {
   double value = 0.0;

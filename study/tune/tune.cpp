@@ -209,32 +209,6 @@ void describe_window(EvaluationLog& log, Search search, TuningResult& result) {
 
 }  // namespace
 
-std::string_view name_of(TuningStatus status) {
-  switch (status) {
-    case TuningStatus::certified:
-      return "certified";
-    case TuningStatus::refuted:
-      return "refuted";
-    case TuningStatus::infeasible:
-      return "infeasible";
-    case TuningStatus::inconclusive:
-      break;
-  }
-  return "inconclusive";
-}
-
-std::string_view name_of(HighLimit limit) {
-  switch (limit) {
-    case HighLimit::accuracy:
-      return "accuracy";
-    case HighLimit::stability:
-      return "stability";
-    case HighLimit::range:
-      break;
-  }
-  return "range";
-}
-
 TuningResult tune(const TuningProblem& problem, const TuningOptions& options,
                   const EvaluateBatch& evaluate) {
   require_valid(problem, options);

@@ -13,6 +13,7 @@
 
 #include "core/simulation/cause.h"
 #include "core/topology/problem.h"
+#include "study/config/search_options.h"
 #include "study/record/evaluation.h"
 
 namespace linkstudy::tuning {
@@ -34,13 +35,8 @@ struct TuningProblem {
   std::vector<MatchComponent> components;  // (m), over all load cases
 };
 
-struct TuningOptions {
-  std::size_t scan = 16;              // log-spaced points over the range, ends included
-  std::size_t batch = 8;              // points asked for together; an input, never the rank count
-  std::size_t max_evaluations = 300;  // never exceeded
-  double resolution = 1e-3;           // decades, of both ends of the window
-  double delta = 0.02;                // k (1 - delta) must fail for k to count as minimal
-  double neighbourhood = 0.1;         // decades around k in which the error must fall
+struct TuningOptions : SearchOptions {
+  double neighbourhood = 0.1;            // decades around k in which the error must fall
   std::size_t confirm_evaluations = 16;  // new ones for each algorithm of NLopt; 0 skips it
   std::size_t confirm_calls = 400;       // calls of any kind before NLopt is stopped
   // Wall time of NLopt. Finite values make the requests depend on the clock, so it is off unless

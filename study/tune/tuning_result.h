@@ -13,8 +13,25 @@ namespace linkstudy::tuning {
 enum class TuningStatus { certified, refuted, inconclusive, infeasible };
 enum class HighLimit { accuracy, stability, range };
 
-std::string_view name_of(TuningStatus status);
-std::string_view name_of(HighLimit limit);
+}  // namespace linkstudy::tuning
+
+namespace linkstudy {
+
+template <>
+inline constexpr auto kWords<tuning::TuningStatus> =
+    make_words<tuning::TuningStatus>({{tuning::TuningStatus::certified, "certified"},
+                                      {tuning::TuningStatus::refuted, "refuted"},
+                                      {tuning::TuningStatus::inconclusive, "inconclusive"},
+                                      {tuning::TuningStatus::infeasible, "infeasible"}});
+template <>
+inline constexpr auto kWords<tuning::HighLimit> =
+    make_words<tuning::HighLimit>({{tuning::HighLimit::accuracy, "accuracy"},
+                                   {tuning::HighLimit::stability, "stability"},
+                                   {tuning::HighLimit::range, "range"}});
+
+}  // namespace linkstudy
+
+namespace linkstudy::tuning {
 
 // The feasible interval that starts at the point found. At an open end the range ended first.
 struct Window {

@@ -29,12 +29,7 @@ tuning::TuningProblem make_tuning_problem(const Evaluator& evaluator) {
 }
 
 tuning::TuningOptions make_tuning_options(const StudyInput& input) {
-  tuning::TuningOptions options;
-  options.scan = static_cast<std::size_t>(input.search.scan);
-  options.batch = static_cast<std::size_t>(input.search.batch);
-  options.max_evaluations = static_cast<std::size_t>(input.search.max_evaluations);
-  options.resolution = input.search.resolution;
-  options.delta = input.search.delta;
+  tuning::TuningOptions options{input.search};
   options.seed = input.run.seed;
   return options;
 }

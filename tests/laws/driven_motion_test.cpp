@@ -22,6 +22,7 @@ Load torque_on_crank() {
   load.name = "drive";
   load.type = LoadType::drive;
   load.joint = "A";
+  load.course.shape = CourseShape::constant;
   load.course.value = 3.0;
   return load;
 }

@@ -130,6 +130,7 @@ TEST(Joint_friction, A_load_that_its_own_friction_lowers_is_found) {
     Load push;
     push.name = "push";
     push.joint = "J";
+    push.course.shape = CourseShape::constant;
     push.course.value = force;
     linkage.loads = {push};
     SimulationOptions options = steps_of(1e-5, 0.05, 0.05);

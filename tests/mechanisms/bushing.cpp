@@ -44,6 +44,7 @@ Linkage bushing_under(const Eigen::Vector3d& torque, const Bushing& data) {
   load.type = LoadType::link_torque;
   load.link = "body";
   load.direction = torque.normalized();
+  load.course.shape = CourseShape::constant;
   load.course.value = torque.norm();
   linkage.loads = {load};
   return linkage;

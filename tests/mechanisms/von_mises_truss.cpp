@@ -77,6 +77,7 @@ Linkage von_mises_truss(double force, const TrussData& data) {
   load.type = LoadType::link_force;
   load.link = "upper1";
   load.direction = {0, -1, 0};
+  load.course.shape = CourseShape::constant;
   load.course.value = force;
   linkage.loads = {load};
   return linkage;

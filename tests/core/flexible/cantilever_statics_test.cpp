@@ -29,6 +29,7 @@ Load end_load(LoadType type, const Vector3d& direction, double value, double at)
   load.link = "beam";
   load.point = Vector3d(at, 0, 0);
   load.direction = direction;
+  load.course.shape = CourseShape::constant;
   load.course.value = value;
   return load;
 }

@@ -187,6 +187,7 @@ TEST(Expansion, Joints_closures_and_loads_find_their_elements_and_keep_their_fra
   Load torque;
   torque.name = "torque";
   torque.type = LoadType::link_torque;
+  torque.course.shape = CourseShape::constant;
   torque.link = "beam";
   torque.point = Vector3d(0.7, 0, 0);
   Load other = torque;

@@ -39,6 +39,7 @@ Linkage pushed(const Push& push) {
   load.type = LoadType::link_force;
   load.link = "journal";
   load.direction = Eigen::Vector3d::UnitY();
+  load.course.shape = CourseShape::constant;
   load.course.value = kPush;
   linkage.loads.push_back(load);
   return linkage;

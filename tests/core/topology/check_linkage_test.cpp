@@ -52,6 +52,7 @@ Load make_drive(const std::string& joint) {
   Load load;
   load.name = "drive";
   load.joint = joint;
+  load.course.shape = CourseShape::constant;
   return load;
 }
 

@@ -72,7 +72,7 @@ const Wrong kWrong[] = {
     {"metres_of_a_turn", "from = \"10 deg\"", "from = @\"10 cm\"",
      "drive 0: from must be in rad here, got a value in m"},
     {"degrees_of_a_slide", "\"26 cm\"", "@\"26 deg\"",
-     "drive 1: positions must be in m here, got a value in rad"},
+     "drive 1: positions.1 must be in m here, got a value in rad"},
     {"nowhere", "to = \"370 deg\"", "to = @\"10 deg\"", "drive 0: to must differ from from",
      "rests where `to` is left out"},
     {"driven_twice", "[[kinematics.drive]]\njoint = \"P\"",

@@ -135,20 +135,20 @@ TEST(StudyCases, What_a_study_sets_without_effect_is_remarked) {
 }
 
 TEST(StudyCases, A_selection_keeps_every_case_of_a_small_design) {
-  EXPECT_THAT(choose_cases(DesignType::grid, {2, 3}, 6),
+  EXPECT_THAT(choose_cases(Design::grid, {2, 3}, 6),
               ElementsAre(ElementsAre(0, 0), ElementsAre(0, 1), ElementsAre(0, 2),
                           ElementsAre(1, 0), ElementsAre(1, 1), ElementsAre(1, 2)));
-  EXPECT_THAT(choose_cases(DesignType::list, {3, 3}, 6),
+  EXPECT_THAT(choose_cases(Design::list, {3, 3}, 6),
               ElementsAre(ElementsAre(0, 0), ElementsAre(1, 1), ElementsAre(2, 2)));
-  EXPECT_THAT(choose_cases(DesignType::grid, {}, 6), ElementsAre(IsEmpty()));
+  EXPECT_THAT(choose_cases(Design::grid, {}, 6), ElementsAre(IsEmpty()));
 }
 
 TEST(StudyCases, A_selection_of_a_large_design_is_bounded_and_has_both_ends) {
-  const auto list = choose_cases(DesignType::list, {1000, 1000}, 10);
+  const auto list = choose_cases(Design::list, {1000, 1000}, 10);
   EXPECT_EQ(list.size(), 10u);
   EXPECT_THAT(list.front(), ElementsAre(0, 0));
   EXPECT_THAT(list.back(), ElementsAre(999, 999));
-  const auto grid = choose_cases(DesignType::grid, {1000, 7}, 10);
+  const auto grid = choose_cases(Design::grid, {1000, 7}, 10);
   EXPECT_LE(grid.size(), 2u * (10 + 7));
   std::set<std::size_t> sevens;
   for (const CasePositions& one : grid) sevens.insert(one[1]);
@@ -157,10 +157,10 @@ TEST(StudyCases, A_selection_of_a_large_design_is_bounded_and_has_both_ends) {
 }
 
 TEST(StudyCases, Are_counted_as_far_as_a_study_goes) {
-  EXPECT_EQ(count_cases(DesignType::grid, {1000, 1000, 100}), 100'000'000u);
-  EXPECT_FALSE(count_cases(DesignType::grid, {1000, 1000, 101}));
-  EXPECT_FALSE(count_cases(DesignType::grid, {1u << 31, 1u << 31, 1u << 31}));
-  EXPECT_EQ(count_cases(DesignType::list, {1000, 1000, 1000}), 1000u);
+  EXPECT_EQ(count_cases(Design::grid, {1000, 1000, 100}), 100'000'000u);
+  EXPECT_FALSE(count_cases(Design::grid, {1000, 1000, 101}));
+  EXPECT_FALSE(count_cases(Design::grid, {1u << 31, 1u << 31, 1u << 31}));
+  EXPECT_EQ(count_cases(Design::list, {1000, 1000, 1000}), 1000u);
 }
 
 }  // namespace

@@ -159,7 +159,7 @@ TEST(Study, Base_reference_and_load_cases_build_their_models) {
 TEST(Study, Varied_values_are_expanded_in_the_unit_of_their_key) {
   const StudyInput input = good(kStudy);
   EXPECT_EQ(input.kind, StudyKind::study);
-  EXPECT_EQ(input.design, DesignType::grid);
+  EXPECT_EQ(input.design, Design::grid);
   ASSERT_EQ(input.vary.size(), 5u);
   EXPECT_THAT(numbers(input.vary[0]), ElementsAre(1e4, 1e5, 1e6, 1e7, 1e8));
   EXPECT_THAT(numbers(input.vary[1]),

@@ -104,8 +104,8 @@ TEST(Designs, Refuse_an_empty_axis_and_a_parameter_varied_twice) {
 
 TEST(Designs, Are_found_by_the_name_they_print) {
   for (const Design design : {Design::list, Design::grid})
-    EXPECT_EQ(find_design(design_name(design)), design);
-  EXPECT_EQ(find_design("grdi"), std::nullopt);
+    EXPECT_EQ(find_word<Design>(name_of(design)), design);
+  EXPECT_EQ(find_word<Design>("grdi"), std::nullopt);
 }
 
 }  // namespace

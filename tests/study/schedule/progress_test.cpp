@@ -111,11 +111,11 @@ TEST(Progress, Can_be_silent) {
 }
 
 TEST(Progress_mode, Is_found_by_its_name) {
-  EXPECT_EQ(find_progress_mode("auto"), ProgressMode::automatic);
-  EXPECT_EQ(find_progress_mode("bar"), ProgressMode::bar);
-  EXPECT_EQ(find_progress_mode("line"), ProgressMode::line);
-  EXPECT_EQ(find_progress_mode("none"), ProgressMode::none);
-  EXPECT_EQ(find_progress_mode("Bar"), std::nullopt);
+  EXPECT_EQ(find_word<ProgressMode>("auto"), ProgressMode::automatic);
+  EXPECT_EQ(find_word<ProgressMode>("bar"), ProgressMode::bar);
+  EXPECT_EQ(find_word<ProgressMode>("line"), ProgressMode::line);
+  EXPECT_EQ(find_word<ProgressMode>("none"), ProgressMode::none);
+  EXPECT_EQ(find_word<ProgressMode>("Bar"), std::nullopt);
 }
 
 }  // namespace

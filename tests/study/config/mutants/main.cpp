@@ -75,7 +75,7 @@ Verdict broken(const std::string& what) {
 bool is_model(const std::string& path) {
   Diagnostics ignored;
   const std::optional<Tree> tree = read_toml_file(path, ignored);
-  return tree && kind_of(*tree, ignored) == "model";
+  return tree && kind_of(*tree, ignored) == FileKind::model;
 }
 
 Verdict check(const std::string& path) {

@@ -1,4 +1,4 @@
-#include "study/config/frame_reader.h"
+#include "study/config/rotation_reader.h"
 
 #include <fmt/format.h>
 
@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/topology/check_values.h"
+#include "study/config/fields.h"
 
 namespace linkstudy {
 namespace {
@@ -53,15 +54,23 @@ class RotationReader {
  private:
   Matrix3d from_axis(const Tree& table, const Tree& axis, const Tree* angle) {
     if (!axis.is_valid()) return Matrix3d::Identity();
-    const Vector3d u =
-        read_direction(&axis, Vector3d::UnitZ(), subject_ + "axis of rotation", diagnostics_);
+    const Vector3d u = read_vector(&axis, Vector3d::UnitZ());
+    const double length = u.stableNorm();
+    if (!(length > 0.0)) {
+      diagnostics_.add(
+          axis.at,
+          fmt::format("{}axis of rotation must not be zero, got {}", subject_, shown(axis)),
+          "give a direction, of any length");
+    }
     if (angle == nullptr) {
       diagnostics_.add(table.at, fmt::format("{}the rotation has an axis but no angle", subject_),
                        "add angle = \"30 deg\"");
       return Matrix3d::Identity();
     }
-    if (!angle->is_numeric()) return Matrix3d::Identity();
-    return without_dust(Eigen::AngleAxisd(angle->as_number(), u).toRotationMatrix());
+    if (!angle->is_numeric() || !(length > 0.0)) return Matrix3d::Identity();
+    return without_dust(
+        Eigen::AngleAxisd(angle->as_number(), length == 1.0 ? u : Vector3d(u / length))
+            .toRotationMatrix());
   }
 
   Matrix3d from_euler(const Tree& value) {
@@ -88,7 +97,9 @@ class RotationReader {
   }
 
   Matrix3d from_matrix(const Tree& value) {
-    const Matrix3d r = read_matrix(&value, Matrix3d::Identity());
+    if (!value.is(Kind::array)) return Matrix3d::Identity();
+    Matrix3d r;
+    fill_member(r, value);
     const std::string fault = rotation_fault(r);
     if (fault.empty()) return orthonormalised(r);
     const bool mirrored = fault.find("reflection") != std::string::npos;
@@ -105,44 +116,29 @@ class RotationReader {
 }  // namespace
 
 Vector3d read_vector(const Tree* value, const Vector3d& otherwise) {
-  if (value == nullptr || !value->is(Kind::array) || value->items.size() != 3) return otherwise;
-  return {value->items[0].as_number(), value->items[1].as_number(), value->items[2].as_number()};
+  Vector3d vector = otherwise;
+  if (value != nullptr && value->is(Kind::array)) fill_member(vector, *value);
+  return vector;
 }
 
-Vector3d read_direction(const Tree* value, const Vector3d& otherwise, const std::string& subject,
-                        Diagnostics& diagnostics) {
-  const Vector3d v = read_vector(value, otherwise);
-  const double length = v.stableNorm();
-  if (length > 0.0) return length == 1.0 ? v : Vector3d(v / length);
-  diagnostics.add(value->at, fmt::format("{} must not be zero, got {}", subject, shown(*value)),
-                  "give a direction, of any length");
-  return otherwise;
-}
-
-Matrix3d read_matrix(const Tree* value, const Matrix3d& otherwise) {
-  if (value == nullptr || !value->is(Kind::array) || value->items.size() != 3) return otherwise;
-  Matrix3d m;
-  for (int i = 0; i < 3; ++i) {
-    m.row(i) =
-        read_vector(&value->items[static_cast<std::size_t>(i)], otherwise.row(i)).transpose();
+void normalise_direction(Vector3d& direction, Tree& value, const Reading& reading) {
+  const double length = direction.stableNorm();
+  if (length == 1.0) return;
+  if (length > 0.0) {
+    direction /= length;
+    return;
   }
-  return m;
+  reading.report(
+      value, fmt::format("{} must not be zero, got {}", subject_of(reading.scope), shown(value)),
+      "give a direction, of any length");
 }
 
-Frame read_frame(const Tree& owner, const std::string& subject, Diagnostics& diagnostics) {
-  Frame frame;
-  if (!owner.is(Kind::table)) return frame;
-  frame.position = read_vector(owner.find("position"), Vector3d::Zero());
-  RotationReader reader(subject, diagnostics);
+void read_rotation(Frame& frame, Tree& owner, const Reading& reading) {
+  const std::string subject = subject_of(reading.scope) + ": ";
+  RotationReader reader(subject, reading.diagnostics);
   const Tree* rotation = owner.find("rotation");
-  if (rotation != nullptr && rotation->is(Kind::table)) {
-    frame.rotation = reader.read(*rotation);
-  } else {
-    for (const char* form : {"matrix", "euler_zyx", "quaternion"}) {
-      if (owner.find(form) != nullptr) frame.rotation = reader.read(owner);
-    }
-  }
-  return frame;
+  const bool has_table = rotation != nullptr && rotation->is(Kind::table);
+  frame.rotation = reader.read(has_table ? *rotation : owner);
 }
 
 }  // namespace linkstudy

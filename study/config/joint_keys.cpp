@@ -1,0 +1,164 @@
+// The keys of [[joint]].
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "study/config/joint_units.h"
+#include "study/config/model_keys.h"
+#include "study/config/rotation_reader.h"
+
+namespace linkstudy {
+namespace {
+
+using enum KeyType;
+
+// Of an array with an entry for each coordinate: its unit, and what it is where it is not written.
+void follow_type(KeyRow& row, const char* key) {
+  row.units_by = [key](const Tree&, const Tree& joint) {
+    const JointKind kind = joint_kind_of(joint);
+    return kind.is_known ? coordinate_units(kind, key) : std::vector<std::string>();
+  };
+  row.derive = [key](const Tree& joint) -> std::optional<Tree> {
+    const JointKind kind = joint_kind_of(joint);
+    if (!kind.is_known) return std::nullopt;
+    if (std::string_view(key) == "position") return start_position(kind);
+    const std::size_t count = coordinate_units(kind, key).size();
+    return Tree::make_array(std::vector<Tree>(count, Tree::make_number(0.0)));
+  };
+}
+
+KeyRow array_row(const char* key, KeyRow row) {
+  follow_type(row, key);
+  return row;
+}
+
+Fields<Joint> start_fields() {
+  Fields<Joint> start;
+  start.add("position", &Joint::position,
+            array_row("position",
+                      {.meaning = "start coordinates, possibly approximate, in the order of the "
+                                  "type: revolute, screw: angle about z; prismatic: shift along z; "
+                                  "cylindrical: angle about z, shift along z; universal: angle "
+                                  "about z, angle about the new y; planar: shift along x, shift "
+                                  "along y, angle about z; spherical: psi about z, theta about the "
+                                  "new y, phi about the new x, or the quaternion w x y z; free: "
+                                  "shifts along x, y, z, then as spherical; default: all zero",
+                       .unit = "rad|m|1"}));
+  start.add("velocity", &Joint::velocity,
+            array_row("velocity",
+                      {.meaning = "start velocities, the rates of the coordinates; of a quaternion "
+                                  "the angular velocity in the axes of the child's joint frame "
+                                  "(body frame), three numbers; default: all zero",
+                       .unit = "rad/s|m/s"}));
+  start.add("hold", &Joint::hold,
+            {.meaning = "assembly keeps position and velocity of this joint, statics its position "
+                        "(and reports what that takes); a run lets it go"});
+  return start;
+}
+
+Fields<Joint> spring_fields() {
+  Fields<Joint> spring;
+  spring.add("stiffness", &Joint::stiffness,
+             array_row("stiffness", {.meaning = "c, one for each coordinate; default: all zero",
+                                     .unit = "N/m|N m/rad",
+                                     .range = kNotNegative}));
+  spring.add("damping", &Joint::damping,
+             array_row("damping", {.meaning = "b, one for each coordinate; default: all zero",
+                                   .unit = "N s/m|N m s/rad",
+                                   .range = kNotNegative}));
+  spring.add("rest", &Joint::rest,
+             array_row("rest", {.meaning = "coordinates without spring force; default: all zero",
+                                .unit = "rad|m"}));
+  return spring;
+}
+
+Fields<JointFriction> joint_friction_fields() {
+  Fields<JointFriction> friction;
+  friction.include(&JointFriction::law, friction_fields());
+  friction.add("radius", &JointFriction::radius,
+               {.meaning = "radius of the sliding surface, not 0 where it turns; prismatic: arm of "
+                           "the moment about the axis, 0: not felt",
+                .unit = "m",
+                .range = kNotNegative});
+  friction.add("length", &JointFriction::length,
+               {.meaning = "between the two supports along the axis; 0: moments load nothing",
+                .unit = "m",
+                .range = kNotNegative});
+  friction.add("preload", &JointFriction::preload,
+               {.meaning = "normal load besides the reaction", .unit = "N", .range = kNotNegative});
+  return friction;
+}
+
+// What the type decides is known with the type only.
+void settle_coordinates(Joint& joint, Tree& table, const Reading& reading) {
+  const JointKind kind = joint_kind_of(table);
+  if (!kind.is_known) {
+    for (auto* list :
+         {&joint.position, &joint.velocity, &joint.stiffness, &joint.damping, &joint.rest}) {
+      list->clear();
+    }
+    return;
+  }
+  const auto count = static_cast<std::size_t>(position_count(joint.type, joint.coordinates));
+  const bool has_quaternion =
+      position_count(joint.type, joint.coordinates) != velocity_count(joint.type);
+  if (!has_quaternion || joint.position.size() != count) return;
+  Eigen::Map<Eigen::Vector4d> q(joint.position.data() + count - 4);
+  if (std::abs(q.norm() - 1.0) <= kQuaternionTolerance) {
+    q.normalize();
+    return;
+  }
+  reading.report(*table.find("initial")->find("position"),
+                 fmt::format("{}the quaternion in initial.position must have length 1, got length "
+                             "{:.6g}",
+                             subject_of(reading.scope), q.norm()),
+                 "order w, x, y, z; divide by the length");
+}
+
+}  // namespace
+
+Fields<Joint> joint_fields() {
+  using Type = JointType;
+  Fields<Joint> joint;
+  joint.add("name", &Joint::name, {.type = name, .meaning = "name of the joint", .required = true});
+  joint.add("type", &Joint::type,
+            {.meaning = "kind of joint; it moves along or about local z", .required = true});
+  joint.add("coordinates", &Joint::coordinates,
+            {.meaning = "coordinates of the rotation",
+             .only = only_where("type", {Type::spherical, Type::free})});
+  joint.add("parent", &Joint::parent,
+            {.type = name, .meaning = "link the joint sits on, or ground", .required = true});
+  joint.add("child", &Joint::child,
+            {.type = name,
+             .meaning = "link the joint carries; every link is carried by one joint",
+             .required = true});
+  joint.table("frame", &Joint::frame, {.meaning = "joint frame in the parent", .standard = "{}"},
+              frame_fields());
+  joint.table("child_frame", &Joint::child_frame,
+              {.meaning = "joint frame in the child", .standard = "{}"}, frame_fields());
+  joint.read("pitch",
+             {.meaning = "advance of a screw joint in one revolution, not zero",
+              .unit = "m/rev",
+              .required = true,
+              .only = only_where("type", {Type::screw})},
+             [](Joint& to, Tree& value, const Reading&) {
+               to.pitch = value.as_number() / (2.0 * std::numbers::pi);  // kept in m/rad
+             });
+  joint.table("initial", {.meaning = "start of the joint", .standard = "{}"}, start_fields());
+  joint.table("spring",
+              {.meaning = "spring and damper on every coordinate, force -c (q - rest) - b v; not "
+                          "for quaternions; default: none"},
+              spring_fields());
+  joint.switched_table(
+      "friction", &Joint::friction,
+      {.meaning = "LuGre friction, mu = sigma0 z + sigma1 z' + sigma2 v, under the load that the "
+                  "joint's own reaction makes; default: none",
+       .only = only_where("type", {Type::revolute, Type::prismatic, Type::cylindrical}),
+       .effects = {when_enabled("joint.*.friction")}},
+      joint_friction_fields(), "false: no friction, whatever the table says");
+  joint.finish(settle_coordinates);
+  return joint;
+}
+
+}  // namespace linkstudy

@@ -1,0 +1,178 @@
+// The keys of [[load]].
+#include <fmt/format.h>
+
+#include "study/config/joint_units.h"
+#include "study/config/model_keys.h"
+#include "study/config/read_value.h"
+#include "study/config/rotation_reader.h"
+
+namespace linkstudy {
+namespace {
+
+using enum KeyType;
+
+// "rad/s" or "m/s" of the coordinate a load acts on, when joint, type and coordinate are right.
+std::optional<std::string> speed_unit(const Tree& document, const Tree& load) {
+  const Tree* joint = find_named(document, "joint", word_of(load, "joint"));
+  if (joint == nullptr) return std::nullopt;
+  const JointKind kind = joint_kind_of(*joint);
+  const std::vector<std::string> units = velocity_units(kind);
+  const auto index = static_cast<std::size_t>(number_of(load, "coordinate", 0.0));
+  if (!kind.is_known || index >= units.size()) return std::nullopt;
+  return units[index];
+}
+
+std::vector<std::string> course_units(const Tree&, const Tree& load) {
+  const std::optional<LoadKind> kind = find_word<LoadKind>(word_of(load, "type"));
+  if (!kind) return {};
+  return {*kind == LoadKind::force || *kind == LoadKind::link_force ? "N" : "N m"};
+}
+
+std::vector<std::string> resistance_units(const Tree& document, const Tree& load) {
+  const std::optional<std::string> speed = speed_unit(document, load);
+  if (!speed) return {};
+  return {*speed == "rad/s" ? "N m" : "N"};
+}
+
+std::vector<std::string> resisted_speed_units(const Tree& document, const Tree& load) {
+  const std::optional<std::string> speed = speed_unit(document, load);
+  return speed ? std::vector<std::string>{*speed} : std::vector<std::string>();
+}
+
+// What was reported is no course: a constant takes the fewest keys.
+void leave_unknown_course(Load& load, Tree& course, const Reading&) {
+  if (!are_known(course, {"shape", "duration", "times", "values"})) {
+    load.course.shape = CourseShape::constant;
+  }
+}
+
+Fields<Course> course_fields() {
+  using enum CourseShape;
+  Fields<Course> course;
+  course.add("shape", &Course::shape, {});
+  course.add("value", &Course::value,
+             {.meaning = "final value",
+              .unit = "N|N m",
+              .required = true,
+              .only = only_where("shape", {ramp, smooth, constant}),
+              .units_by = course_units});
+  course.add("duration", &Course::duration,
+             {.meaning = "time to full value",
+              .unit = "s",
+              .range = kPositive,
+              .required = true,
+              .only = only_where("shape", {ramp, smooth})});
+  course.add("times", &Course::times,
+             {.meaning = "times, increasing",
+              .unit = "s",
+              .required = true,
+              .only = only_where("shape", {CourseShape::table})});
+  course.add("values", &Course::values,
+             {.meaning = "values at times; linear between, held outside",
+              .unit = "N|N m",
+              .required = true,
+              .only = only_where("shape", {CourseShape::table}),
+              .units_by = course_units});
+  return course;
+}
+
+Fields<ResistanceLaw> law_fields() {
+  Fields<ResistanceLaw> law;
+  law.add("shape", &ResistanceLaw::shape, {});
+  law.add("value", &ResistanceLaw::value,
+          {.meaning = "resistance at at_speed",
+           .unit = "N|N m",
+           .required = true,
+           .units_by = resistance_units});
+  law.add("at_speed", &ResistanceLaw::at_speed,
+          {.meaning = "speed of `value`",
+           .unit = "rad/s|m/s",
+           .range = kPositive,
+           .required = true,
+           .units_by = resisted_speed_units});
+  return law;
+}
+
+void read_type(Load& load, Tree& value, const Reading&) {
+  switch (*find_word<LoadKind>(value.text)) {
+    case LoadKind::torque:
+    case LoadKind::force:
+      load.type = LoadType::drive;
+      break;
+    case LoadKind::resistance:
+      load.type = LoadType::resistance;
+      break;
+    case LoadKind::link_force:
+      load.type = LoadType::link_force;
+      break;
+    case LoadKind::link_torque:
+      load.type = LoadType::link_torque;
+  }
+}
+
+// A torque turns, a force shifts.
+void require_fit(Load& load, Tree& table, const Reading& reading) {
+  const std::string type = word_of(table, "type");
+  const std::optional<LoadKind> kind = find_word<LoadKind>(type);
+  const bool is_torque = kind == LoadKind::torque;
+  if (!is_torque && kind != LoadKind::force) return;
+  const std::optional<std::string> speed = speed_unit(reading.document, table);
+  if (!speed || (*speed == "rad/s") == is_torque) return;
+  reading.diagnostics.add(
+      table.find("type")->at,
+      fmt::format("{}type {} does not fit coordinate {} of joint '{}', a {}, got '{}'",
+                  subject_of(reading.scope), type, load.coordinate, load.joint,
+                  is_torque ? "translation" : "rotation", type),
+      fmt::format("use type = \"{}\"", name_of(is_torque ? LoadKind::force : LoadKind::torque)));
+}
+
+void add_place(Fields<Load>& load) {
+  using enum LoadKind;
+  const Condition on_joint = only_where("type", {torque, force, resistance});
+  const Condition on_link = only_where("type", {link_force, link_torque});
+  load.add("joint", &Load::joint,
+           {.type = name, .meaning = "joint it acts on", .required = true, .only = on_joint});
+  load.add("coordinate", &Load::coordinate,
+           {.meaning = "velocity coordinate within the joint, from 0",
+            .range = {.low = 0, .high = 5},
+            .only = on_joint});
+  load.add("link", &Load::link,
+           {.type = name, .meaning = "link it acts on", .required = true, .only = on_link});
+  load.add("point", &Load::point,
+           {.meaning = "point of application in the link frame",
+            .unit = "m",
+            .counts = {3},
+            .only = only_where("type", {link_force})});
+  load.add(
+      "direction", &Load::direction,
+      {.meaning = "direction, of any length", .required = true, .counts = {3}, .only = on_link},
+      [](Load& to, Tree& value, const Reading& reading) {
+        normalise_direction(to.direction, value, reading);
+      });
+  load.add_choice("axes", &Load::follows_link, kLoadAxes,
+                  {.meaning = "frame of direction", .only = on_link});
+}
+
+}  // namespace
+
+Fields<Load> load_fields() {
+  using enum LoadKind;
+  Fields<Load> load;
+  load.add("name", &Load::name, {.type = name, .meaning = "name of the load", .required = true});
+  load.read_word<LoadKind>("type", {.required = true}, read_type);
+  add_place(load);
+  load.table("course", &Load::course,
+             {.meaning = "course over time",
+              .required = true,
+              .only = only_where("type", {torque, force, link_force, link_torque})},
+             course_fields(), leave_unknown_course);
+  load.table("law", &Load::law,
+             {.meaning = "law of the resistance",
+              .required = true,
+              .only = only_where("type", {resistance})},
+             law_fields());
+  load.finish(require_fit);
+  return load;
+}
+
+}  // namespace linkstudy
