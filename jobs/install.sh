@@ -3,7 +3,7 @@
 # Time: 1-2 minutes on a fresh Debian 12, under a second where nothing is missing.
 # Output: the packages that were missing; nothing where none was.
 # As root it installs directly, otherwise through sudo; without either it says what to install.
-# usage: jobs/install.sh [--tests]     --tests: also what only tests/run.sh needs, a Slurm
+# usage: jobs/install.sh [--tests]     --tests: also what tests/run.sh needs (a Slurm, cpack)
 set -euo pipefail
 
 packages=(
@@ -14,7 +14,7 @@ packages=(
   libgtest-dev libgmock-dev libbenchmark-dev clang-format
   python3 python3-h5py python3-xarray python3-h5netcdf python3-netcdf4
 )
-if [ "${1:-}" = --tests ]; then packages+=(slurm-wlm munge); fi
+if [ "${1:-}" = --tests ]; then packages+=(slurm-wlm munge dpkg-dev file); fi
 
 missing=()
 for package in "${packages[@]}"; do
