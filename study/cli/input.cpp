@@ -54,7 +54,7 @@ ModelInput read_model_input(const CommandLine& line) {
   return std::move(*model);
 }
 
-StudyInput read_study_input(const CommandLine& line, StudyKind kind) {
+StudyInput read_study_input(const CommandLine& line, FileKind kind) {
   Diagnostics diagnostics;
   std::vector<std::string> texts = line.set;
   if (line.seed) texts.push_back(fmt::format("run.seed={}", *line.seed));
@@ -63,7 +63,7 @@ StudyInput read_study_input(const CommandLine& line, StudyKind kind) {
   std::optional<StudyInput> input = read_study(line.inputs.front(), set, diagnostics);
   throw_if_any(diagnostics);
   if (input->kind != kind) {
-    const char* other = input->kind == StudyKind::tune ? "tune" : "study";
+    const std::string_view other = name_of(input->kind);
     diagnostics.add(make_location(input->file), fmt::format("this file has kind = \"{}\"", other),
                     fmt::format("run 'linkstudy {} {}'", other, input->file));
     throw InputError(diagnostics);

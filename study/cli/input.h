@@ -12,6 +12,6 @@ ModelInput read_model_input(const CommandLine& line);
 
 // A study or tune file with --set, --seed, --batch in it; --timeout, --max-failures and
 // --on-failure replace what its [run] says.
-StudyInput read_study_input(const CommandLine& line, StudyKind kind);
+StudyInput read_study_input(const CommandLine& line, FileKind kind);
 
 }  // namespace linkstudy

@@ -39,7 +39,7 @@ int finish(bool json, StudySession& session, StudyEnd end) {
 
 int run_study(const CommandLine& line) {
   return run_session(
-      line, [&] { return read_study_input(line, StudyKind::study); },
+      line, [&] { return read_study_input(line, FileKind::study); },
       [&](StudySession& session) {
         const std::vector<Point> points = points_of(session.evaluator().input());
         return finish(line.json, session, end_study(session, [&] { session.evaluate(points); }));

@@ -33,7 +33,7 @@ int run(bool json, StudySession& session) {
     TuningRun run(session);
     result = tuning::tune(make_tuning_problem(session.evaluator()), make_tuning_options(input),
                           [&](const auto& requests) { return run.evaluate(requests); });
-    session.record().set_tuning(slug_of(input.name), tuning::write_json(*result, ""),
+    session.record().set_answer(AnswerKind::tuning, tuning::write_json(*result, ""),
                                 tuning::make_tables(*result));
   });
   if (result) return print_result(json, *result, end.digest);
@@ -46,7 +46,7 @@ int run(bool json, StudySession& session) {
 
 int run_tune(const CommandLine& line) {
   return run_session(
-      line, [&] { return read_study_input(line, StudyKind::tune); },
+      line, [&] { return read_study_input(line, FileKind::tune); },
       [&](StudySession& session) { return run(line.json, session); });
 }
 

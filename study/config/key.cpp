@@ -75,19 +75,27 @@ KeyNode make_schema(const std::vector<KeyRow>& rows) {
   return root;
 }
 
-const KeyNode& model_schema() {
-  static const KeyNode schema = make_schema(model_rows());
-  return schema;
+const std::vector<KeyRow>& key_rows(FileKind kind) {
+  static const std::vector<std::vector<KeyRow>> rows = [] {
+    std::vector<std::vector<KeyRow>> all;
+    for (std::size_t i = 0; i < kWords<FileKind>.size(); ++i) {
+      const auto one = static_cast<FileKind>(i);
+      all.push_back(one == FileKind::model ? make_model_rows() : make_study_rows(one));
+    }
+    return all;
+  }();
+  return rows[static_cast<std::size_t>(kind)];
 }
 
-const KeyNode& study_schema() {
-  static const KeyNode schema = make_schema(study_rows());
-  return schema;
-}
-
-const KeyNode& tune_schema() {
-  static const KeyNode schema = make_schema(tune_rows());
-  return schema;
+const KeyNode& key_schema(FileKind kind) {
+  static const std::vector<KeyNode> schemas = [] {
+    std::vector<KeyNode> all;
+    for (std::size_t i = 0; i < kWords<FileKind>.size(); ++i) {
+      all.push_back(make_schema(key_rows(static_cast<FileKind>(i))));
+    }
+    return all;
+  }();
+  return schemas[static_cast<std::size_t>(kind)];
 }
 
 std::vector<std::string> split_path(std::string_view path) {

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "study/config/file_kind.h"
 #include "study/config/scope.h"
 #include "study/config/tree.h"
 
@@ -127,13 +128,16 @@ struct KeyNode {
 
 KeyNode make_schema(const std::vector<KeyRow>& rows);
 
-// The three sections of the reference.
-const std::vector<KeyRow>& model_rows();
-const std::vector<KeyRow>& study_rows();  // kind = "study"
-const std::vector<KeyRow>& tune_rows();   // kind = "tune"
-const KeyNode& model_schema();
-const KeyNode& study_schema();
-const KeyNode& tune_schema();
+// The keys of a kind of files: a section of the reference.
+const std::vector<KeyRow>& key_rows(FileKind kind);
+const KeyNode& key_schema(FileKind kind);
+inline const KeyNode& model_schema() {
+  return key_schema(FileKind::model);
+}
+
+// Where the keys are declared: *_keys.cpp.
+std::vector<KeyRow> make_model_rows();
+std::vector<KeyRow> make_study_rows(FileKind kind);  // of all that vary a model
 
 // "closure.S.sde" -> {"closure", "S", "sde"}
 std::vector<std::string> split_path(std::string_view path);

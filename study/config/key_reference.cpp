@@ -13,15 +13,17 @@ namespace linkstudy {
 namespace {
 
 struct Section {
-  const char* name;
-  const char* title;
+  std::string_view name;
+  std::string_view title;
   const std::vector<KeyRow>& rows;
 };
 
 std::vector<Section> sections() {
-  return {{"model", "one mechanism", model_rows()},
-          {"study", "a parameter study of a model", study_rows()},
-          {"tune", "the lowest value that matches a reference", tune_rows()}};
+  std::vector<Section> all;
+  for (const Word<FileKind>& kind : kWords<FileKind>) {
+    all.push_back({kind.text, kind.meaning, key_rows(kind.value)});
+  }
+  return all;
 }
 
 std::string type_text(const KeyRow& row) {

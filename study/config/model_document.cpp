@@ -1,6 +1,7 @@
 #include "study/config/model_document.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/flexible/rigid_finite_elements.h"
 #include "core/topology/nearest_name.h"
@@ -11,7 +12,11 @@
 namespace linkstudy {
 namespace {
 
-constexpr const char* kKinds = "supported: model, study, tune";
+std::vector<std::string> kind_words() {
+  std::vector<std::string> words;
+  for (const Word<FileKind>& known : kWords<FileKind>) words.emplace_back(known.text);
+  return words;
+}
 
 std::optional<Tree> require_model(std::optional<Tree> tree, Diagnostics& diagnostics) {
   if (!tree) return std::nullopt;
@@ -45,22 +50,21 @@ std::optional<FileKind> kind_of(const Tree& document, Diagnostics& diagnostics) 
                     "this version reads format = 1 only");
     return std::nullopt;
   }
+  const std::string kinds = fmt::format("supported: {}", fmt::join(kind_words(), ", "));
   const Tree* kind = document.find("kind");
   if (kind == nullptr) {
-    diagnostics.add(document.at, "kind is missing", kKinds);
+    diagnostics.add(document.at, "kind is missing", kinds);
     return std::nullopt;
   }
   const std::string word = kind->is(Tree::Kind::text) ? kind->text : std::string();
   if (const std::optional<FileKind> known = find_word<FileKind>(word)) return known;
   if (word == "converge") {
-    diagnostics.add(kind->at, "kind = 'converge' is not supported in this version", kKinds);
+    diagnostics.add(kind->at, "kind = 'converge' is not supported in this version", kinds);
     return std::nullopt;
   }
-  std::vector<std::string> kinds;
-  for (const Word<FileKind>& known : kWords<FileKind>) kinds.emplace_back(known.text);
-  const std::string near = nearest_name(word, kinds);
-  diagnostics.add(kind->at, fmt::format("kind must be model, study or tune, got {}", shown(*kind)),
-                  near.empty() ? kKinds : fmt::format("did you mean '{}'?", near));
+  const std::string near = nearest_name(word, kind_words());
+  diagnostics.add(kind->at, fmt::format("there is no kind {} of files", shown(*kind)),
+                  near.empty() ? kinds : fmt::format("did you mean '{}'?", near));
   return std::nullopt;
 }
 

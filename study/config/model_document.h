@@ -4,18 +4,11 @@
 
 #include <memory>
 
+#include "study/config/file_kind.h"
 #include "study/config/model_reader.h"
 #include "study/config/override.h"
 
 namespace linkstudy {
-
-// What an input describes.
-enum class FileKind { model, study, tune };
-
-template <>
-inline constexpr auto kWords<FileKind> = make_words<FileKind>({{FileKind::model, "model"},
-                                                               {FileKind::study, "study"},
-                                                               {FileKind::tune, "tune"}});
 
 class ModelDocument {
  public:

@@ -167,20 +167,17 @@ Fields<Friction> friction_fields() {
   return law;
 }
 
-const std::vector<KeyRow>& model_rows() {
-  static const std::vector<KeyRow> rows = [] {
-    Fields<ModelInput> model;
-    add_file_fields(model, "model");
-    model.include(&ModelInput::linkage, linkage_fields());
-    model.table("simulation", &ModelInput::options,
-                {.meaning = "how a run is made", .standard = "{}"}, simulation_fields());
-    model.table("kinematics", &ModelInput::kinematics,
-                {.meaning = "course of `linkstudy kinematics`; of no effect on runs",
-                 .effects = {{"verb", {"kinematics"}, {}, false}}},
-                kinematics_fields());
-    return model.rows();
-  }();
-  return rows;
+std::vector<KeyRow> make_model_rows() {
+  Fields<ModelInput> model;
+  add_file_fields(model, "model");
+  model.include(&ModelInput::linkage, linkage_fields());
+  model.table("simulation", &ModelInput::options,
+              {.meaning = "how a run is made", .standard = "{}"}, simulation_fields());
+  model.table("kinematics", &ModelInput::kinematics,
+              {.meaning = "course of `linkstudy kinematics`; of no effect on runs",
+               .effects = {{"verb", {"kinematics"}, {}, false}}},
+              kinematics_fields());
+  return model.rows();
 }
 
 }  // namespace linkstudy

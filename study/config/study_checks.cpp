@@ -70,11 +70,11 @@ void read_failure_limit(RunOptions& run, Tree& value, const Reading& reading) {
       "for example 10, or \"5 %\"");
 }
 
-void check_study(const Tree& study, StudyKind kind, Diagnostics& diagnostics) {
+void check_study(const Tree& study, FileKind kind, Diagnostics& diagnostics) {
   require_unique(study, "response", diagnostics);
   require_unique(study, "load_case", diagnostics);
   const Tree* match = study.find("match");
-  if (match == nullptr && kind == StudyKind::tune) {
+  if (match == nullptr && kind == FileKind::tune) {
     diagnostics.add(study.at, "a tune needs at least one [[match]]",
                     "add [[match]] with signal and tolerance");
   }

@@ -18,6 +18,6 @@ void read_trace(StudyInput& study, Tree& value, const Reading& reading);
 void read_failure_limit(RunOptions& run, Tree& value, const Reading& reading);
 
 // Names once each, a reference where something is compared.
-void check_study(const Tree& study, StudyKind kind, Diagnostics& diagnostics);
+void check_study(const Tree& study, FileKind kind, Diagnostics& diagnostics);
 
 }  // namespace linkstudy

@@ -9,15 +9,11 @@
 
 namespace linkstudy {
 
-enum class StudyKind { study, tune };
 enum class ErrorNorm { max, rms };
 enum class ErrorScale { component, vector };
 enum class Reduction { max, min, max_abs, rms, mean, last };
 enum class FailurePolicy { record, abort };
 
-template <>
-inline constexpr auto kWords<StudyKind> = make_words<StudyKind>({{StudyKind::study, "study"},
-                                                                 {StudyKind::tune, "tune"}});
 template <>
 inline constexpr auto kWords<ErrorNorm> = make_words<ErrorNorm>(
     {{ErrorNorm::max, "max", "largest"}, {ErrorNorm::rms, "rms", "root-mean-square"}});
@@ -110,7 +106,7 @@ struct RunOptions {
 };
 
 struct StudyInput {
-  StudyKind kind = StudyKind::study;
+  FileKind kind = FileKind::study;
   std::string name = "unnamed";
   std::string file;
   std::shared_ptr<const ModelDocument> model;

@@ -1,4 +1,4 @@
-// The keys of kind = "study" and kind = "tune".
+// The keys of the files that vary a model: common ones, and those of their kind.
 #include <fmt/format.h>
 
 #include "study/config/model_keys.h"
@@ -200,26 +200,16 @@ void add_tune(Fields<Study>& study) {
               std::move(search));
 }
 
-std::vector<KeyRow> rows_of(StudyKind kind) {
+}  // namespace
+
+std::vector<KeyRow> make_study_rows(FileKind kind) {
   Fields<Study> study;
   add_head(study, std::string(name_of(kind)));
-  if (kind == StudyKind::study) add_vary(study);
-  if (kind == StudyKind::tune) add_tune(study);
+  if (kind == FileKind::study) add_vary(study);
+  if (kind == FileKind::tune) add_tune(study);
   add_outputs(study);
   add_run(study);
   return study.rows();
-}
-
-}  // namespace
-
-const std::vector<KeyRow>& study_rows() {
-  static const std::vector<KeyRow> rows = rows_of(StudyKind::study);
-  return rows;
-}
-
-const std::vector<KeyRow>& tune_rows() {
-  static const std::vector<KeyRow> rows = rows_of(StudyKind::tune);
-  return rows;
 }
 
 }  // namespace linkstudy

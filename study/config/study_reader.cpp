@@ -27,9 +27,9 @@ class StudyReader {
     input_.file = std::move(file);
   }
 
-  StudyInput read(StudyKind kind) {
+  StudyInput read(FileKind kind) {
     input_.kind = kind;
-    const KeyNode& schema = kind == StudyKind::tune ? tune_schema() : study_schema();
+    const KeyNode& schema = key_schema(kind);
     fill_record(&input_, study_, schema, diagnostics_);
     check_study(study_, kind, diagnostics_);
     load_models();
@@ -99,7 +99,7 @@ class StudyReader {
 
   void read_parameters() {
     const ModelDocument document = base_document();
-    const char* list = input_.kind == StudyKind::study ? "vary" : "tune";
+    const char* list = input_.kind == FileKind::study ? "vary" : "tune";
     Tree* entries = study_.find(list);
     if (entries != nullptr && entries->is(Kind::array)) {
       for (Tree& entry : entries->items) read_entry(document, entry);
@@ -135,7 +135,7 @@ class StudyReader {
       return;
     }
     paths_.push_back(path->text);
-    if (input_.kind == StudyKind::tune) return read_tune(entry, *parameter, *row);
+    if (input_.kind == FileKind::tune) return read_tune(entry, *parameter, *row);
     std::vector<Tree> values =
         read_value_list(entry, *row, parameter->unit, parameter->path, diagnostics_);
     if (values.empty()) return;
@@ -229,8 +229,7 @@ std::optional<StudyInput> read_study(const std::string& path, std::span<const Ov
     diagnostics.append(found);
     return std::nullopt;
   }
-  const bool is_tune = *kind == FileKind::tune;
-  const KeyNode& schema = is_tune ? tune_schema() : study_schema();
+  const KeyNode& schema = key_schema(*kind);
   std::vector<Override> model_set;
   for (const Override& override : set) {
     if (is_study_path(override.path)) {
@@ -241,7 +240,7 @@ std::optional<StudyInput> read_study(const std::string& path, std::span<const Ov
   }
   validate(*tree, schema, found);
   StudyReader reader(std::move(*tree), path, model_set, found);
-  StudyInput input = reader.read(is_tune ? StudyKind::tune : StudyKind::study);
+  StudyInput input = reader.read(*kind);
   diagnostics.append(found);
   if (!found.empty()) return std::nullopt;
   input.remarks = found.sorted_remarks();

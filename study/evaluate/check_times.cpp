@@ -55,7 +55,7 @@ class TimesCheck {
 
  private:
   std::vector<std::vector<Override>> deciding_points() const {
-    return input_.kind == StudyKind::tune ? steps_of_tune() : points_of_study();
+    return input_.kind == FileKind::tune ? steps_of_tune() : points_of_study();
   }
 
   std::vector<std::vector<Override>> steps_of_tune() const {

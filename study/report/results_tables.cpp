@@ -23,10 +23,10 @@ Table titled(Table table, const StudyResults& results) {
   return table;
 }
 
-// A part of the first tuning.
-Made tuning_part(const StudyResults& results, std::string_view name) {
-  if (results.tunings.empty()) return std::nullopt;
-  const Table* found = find_part(results.tunings.front(), name);
+Made part_of(AnswerKind kind, const StudyResults& results, std::string_view name) {
+  const auto answer = std::ranges::find(results.answers, kind, &VerbAnswer::kind);
+  if (answer == results.answers.end()) return std::nullopt;
+  const Table* found = find_part(answer->tables, name);
   return found == nullptr ? Made() : Made(titled(*found, results));
 }
 
@@ -40,13 +40,14 @@ constexpr std::array<ResultsTable, 9> kTables = {{
     {"traces", "time histories, and their differences from the reference", traces_table,
      "these results hold no time histories; ask for them with [[trace]]"},
     {"tuning", "the answer, its damping, window, margin and verdict",
-     [](const StudyResults& r) { return tuning_part(r, "result"); }, kNotTuned},
+     [](const StudyResults& r) { return part_of(AnswerKind::tuning, r, "result"); }, kNotTuned},
     {"components", "errors and tolerances of the matched components at the answer",
-     [](const StudyResults& r) { return tuning_part(r, "components"); }, kNotTuned},
+     [](const StudyResults& r) { return part_of(AnswerKind::tuning, r, "components"); }, kNotTuned},
     {"scan", "every value tried at the base step, and on which side it fails",
-     [](const StudyResults& r) { return tuning_part(r, "scan"); }, kNotTuned},
+     [](const StudyResults& r) { return part_of(AnswerKind::tuning, r, "scan"); }, kNotTuned},
     {"certificate", "the claims about the answer and what they rest on",
-     [](const StudyResults& r) { return tuning_part(r, "certificate"); }, kNotTuned},
+     [](const StudyResults& r) { return part_of(AnswerKind::tuning, r, "certificate"); },
+     kNotTuned},
     {"runtime", "wall time, rank and host of every evaluation",
      [](const StudyResults& r) {
        return Made(titled(runtime_group(latest_by_id(r.evaluations)), r));

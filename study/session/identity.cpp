@@ -69,8 +69,7 @@ StudyIdentity make_identity(const SessionOptions& options, const Evaluator& eval
                             std::uint64_t total, const Transport& transport) {
   const StudyInput& input = evaluator.input();
   StudyIdentity identity;
-  const bool is_tune = input.kind == StudyKind::tune;
-  identity.description = {input.name, is_tune ? "tune" : "study", input.run.seed,
+  identity.description = {input.name, std::string(name_of(input.kind)), input.run.seed,
                           evaluator.parameters(), evaluator.responses()};
   std::vector<std::string> texts = {write_toml(without_run_settings(input.resolved)),
                                     write_toml(input.model->tree())};

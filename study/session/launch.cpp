@@ -111,7 +111,7 @@ class Launch {
     Diagnostics diagnostics;
     evaluator_ = make_evaluator(input, diagnostics);
     throw_if_any(diagnostics);
-    if (input.kind == StudyKind::study) total_ = points_of(input).size();
+    if (input.kind == FileKind::study) total_ = points_of(input).size();
     return kDone;
   }
 

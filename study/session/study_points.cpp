@@ -17,7 +17,7 @@ std::vector<Axis> axes_of(const StudyInput& input) {
 }
 
 std::vector<Value> first_point(const StudyInput& input) {
-  if (input.kind == StudyKind::tune) return {input.tune.front().low, base_step_of(input)};
+  if (input.kind == FileKind::tune) return {input.tune.front().low, base_step_of(input)};
   return make_point(input.design, axes_of(input), 0).values;
 }
 
@@ -26,7 +26,7 @@ std::vector<Value> first_point(const StudyInput& input) {
 std::vector<Parameter> parameters_of(const StudyInput& input) {
   std::vector<Parameter> parameters;
   for (const VaryInput& vary : input.vary) parameters.push_back(vary.parameter);
-  if (input.kind == StudyKind::tune) {
+  if (input.kind == FileKind::tune) {
     parameters.push_back(input.tune.front().parameter);
     parameters.push_back(parameter_for(*input.model, kStepPath)
                              .value_or(Parameter{kStepPath, "s", "length of a step"}));
@@ -48,11 +48,11 @@ double base_step_of(const StudyInput& input) {
 }
 
 std::unique_ptr<Evaluator> make_evaluator(const StudyInput& input, Diagnostics& diagnostics) {
-  if (input.kind == StudyKind::tune) check_tune(input, diagnostics);
+  if (input.kind == FileKind::tune) check_tune(input, diagnostics);
   if (!diagnostics.empty()) return nullptr;
   std::unique_ptr<Evaluator> evaluator =
       Evaluator::make(input, parameters_of(input), first_point(input), diagnostics);
-  if (evaluator && input.kind == StudyKind::tune) check_tuning(*evaluator, diagnostics);
+  if (evaluator && input.kind == FileKind::tune) check_tuning(*evaluator, diagnostics);
   if (evaluator) evaluator->set_timeout(input.run.timeout.value_or(0.0));
   return evaluator;
 }

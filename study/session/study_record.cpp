@@ -165,10 +165,10 @@ const StoredReference* StudyRecord::reference(const std::string& name) const {
   return nullptr;
 }
 
-void StudyRecord::set_tuning(const std::string& name, const std::string& json,
-                             std::vector<Table> tables) {
-  results_.tunings = {{name, {}, {{"certificate", json}}, std::move(tables)}};
-  for (const NamedText& text : tuning_texts(results_.tunings.front())) journal_.append(text);
+void StudyRecord::set_answer(AnswerKind kind, const std::string& json, std::vector<Table> tables) {
+  const std::string name = slug_of(results_.description.name);
+  results_.answers = {{kind, {name, {}, {{"answer", json}}, std::move(tables)}}};
+  for (const NamedText& text : answer_texts(results_.answers.front())) journal_.append(text);
 }
 
 std::string StudyRecord::write(RunStatus status) {

@@ -50,8 +50,8 @@ class StudyRecord {
   // Synced at once: it may be all that a start achieves. `name` is that of the load case.
   void add_reference(StoredReference reference);
   const StoredReference* reference(const std::string& name) const;
-  // The object of `tune --json` and the tables of a tuning.
-  void set_tuning(const std::string& name, const std::string& json, std::vector<Table> tables);
+  // What the verb concludes: the object of its --json, and tables.
+  void set_answer(AnswerKind kind, const std::string& json, std::vector<Table> tables);
 
   // Writes results.h5 and returns the results digest.
   std::string write(RunStatus status);

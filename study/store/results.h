@@ -5,12 +5,22 @@
 #include <string>
 #include <vector>
 
+#include "core/base/words.h"
 #include "study/record/evaluation.h"
 #include "study/record/table.h"
 
 namespace linkstudy {
 
 enum class RunStatus { running, complete, interrupted };
+
+// Groups of results.h5 for what a verb concludes from its evaluations.
+enum class AnswerKind { tuning, calibration, convergence };
+
+template <>
+inline constexpr auto kWords<AnswerKind> =
+    make_words<AnswerKind>({{AnswerKind::tuning, "tuning"},
+                            {AnswerKind::calibration, "calibration"},
+                            {AnswerKind::convergence, "convergence"}});
 
 // What was asked for; constant over all runs into one directory.
 struct StudyDescription {
@@ -82,6 +92,15 @@ void visit_members(auto& archive, Like<ProvenanceRow> auto& row) {
   archive(row.job, row.restart);
 }
 
+// What a verb concludes from its evaluations. `tables` has the study's name, the tables as parts
+// and the object of --json as attribute "answer".
+struct VerbAnswer {
+  AnswerKind kind = AnswerKind::tuning;
+  Table tables;
+
+  bool operator==(const VerbAnswer&) const = default;
+};
+
 struct StudyResults {
   StudyDescription description;
   RunStatus status = RunStatus::running;
@@ -92,8 +111,7 @@ struct StudyResults {
   std::vector<Evaluation> evaluations;
   std::vector<TraceSet> references;
   std::vector<TraceSet> traces;
-  std::vector<Table> tunings;       // tables of a tuning as parts, its JSON object as attribute
-  std::vector<Table> convergences;  // one table each
+  std::vector<VerbAnswer> answers;
   std::vector<ProvenanceRow> provenance;
   std::vector<NamedText> texts;  // input text, resolved input, build, machine
   std::string dropped;           // what the journal has lost, in a sentence; empty: nothing

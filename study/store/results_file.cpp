@@ -24,8 +24,8 @@ constexpr std::array<std::string_view, 3> kRunStatusNames = {"running", "complet
 
 constexpr std::string_view kReferencePrefix = "reference";
 constexpr std::string_view kDerivedPrefix = "derived_";
-constexpr std::string_view kTuningPrefix = "tuning/";
-constexpr std::string_view kTuningTablesPrefix = "tuning_tables/";
+constexpr std::string_view kTablesSuffix = "_tables";
+constexpr const char* kAnswer = "answer";
 
 void add_groups(Table& root, const std::string& name, std::vector<Table> groups) {
   if (!groups.empty()) {
@@ -217,22 +217,27 @@ void add_traces(const TraceSet& set, StudyResults& results) {
   if (is_there) found->derived = set.traces;
 }
 
-Table& tuning_named(StudyResults& results, std::string_view name) {
-  const auto found = std::ranges::find(results.tunings, name, &Table::name);
-  if (found != results.tunings.end()) return *found;
-  return results.tunings.emplace_back(Table{std::string(name)});
+Table& answer_of(StudyResults& results, AnswerKind kind, std::string_view name) {
+  const auto found = std::ranges::find_if(results.answers, [&](const VerbAnswer& answer) {
+    return answer.kind == kind && answer.tables.name == name;
+  });
+  if (found != results.answers.end()) return found->tables;
+  return results.answers.emplace_back(VerbAnswer{kind, Table{std::string(name)}}).tables;
 }
 
 void add_text(const NamedText& text, StudyResults& results) {
-  const std::string_view name = text.name;
-  if (name.starts_with(kTuningPrefix)) {
-    tuning_named(results, name.substr(kTuningPrefix.size())).attributes = {
-        {"certificate", text.text}};
-  } else if (name.starts_with(kTuningTablesPrefix)) {
-    tuning_named(results, name.substr(kTuningTablesPrefix.size())).parts =
-        from_bytes<std::vector<Table>>(text.text);
-  } else {
+  const std::optional<AnswerKind> kind = answer_kind_of(text);
+  if (!kind) {
     results.texts.push_back(text);
+    return;
+  }
+  const std::string_view name = text.name;
+  const std::size_t slash = name.find('/');
+  Table& tables = answer_of(results, *kind, name.substr(slash + 1));
+  if (name.substr(0, slash).ends_with(kTablesSuffix)) {
+    tables.parts = from_bytes<std::vector<Table>>(text.text);
+  } else {
+    tables.attributes = {{kAnswer, text.text}};
   }
 }
 
@@ -255,8 +260,13 @@ Table tree_of(const StudyResults& results) {
   root.parts.push_back(study_group(description, evaluations));
   add_groups(root, "reference", trace_groups(results.references));
   add_groups(root, "traces", trace_groups(results.traces));
-  add_groups(root, "tuning", results.tunings);
-  add_groups(root, "convergence", results.convergences);
+  for (const Word<AnswerKind>& kind : kWords<AnswerKind>) {
+    std::vector<Table> groups;
+    for (const VerbAnswer& answer : results.answers) {
+      if (answer.kind == kind.value) groups.push_back(answer.tables);
+    }
+    add_groups(root, std::string(kind.text), std::move(groups));
+  }
   root.parts.push_back(runtime_group(evaluations));
   root.parts.push_back(provenance_group(results.provenance, results.texts));
   return root;
@@ -278,8 +288,11 @@ StudyResults results_of(const Table& tree) {
   read_provenance(part(tree, "provenance"), results);
   results.references = read_traces(part(tree, "reference"));
   results.traces = read_traces(part(tree, "traces"));
-  results.tunings = part(tree, "tuning").parts;
-  results.convergences = part(tree, "convergence").parts;
+  for (const Word<AnswerKind>& kind : kWords<AnswerKind>) {
+    for (const Table& tables : part(tree, std::string(kind.text)).parts) {
+      results.answers.push_back({kind.value, tables});
+    }
+  }
   return results;
 }
 
@@ -305,9 +318,9 @@ StudyResults read_stored(const std::filesystem::path& path) {
   // A study that runs is written to at this moment.
   if (!is_locked(path / kJournalName)) results.dropped = dropped_text(contents, path);
   const bool misses_tables = std::ranges::any_of(
-      results.tunings, [](const Table& tuning) { return tuning.parts.empty(); });
+      results.answers, [](const VerbAnswer& answer) { return answer.tables.parts.empty(); });
   if (misses_tables && std::filesystem::exists(path / kResultsName)) {
-    results.tunings = read_results(path / kResultsName).tunings;
+    results.answers = read_results(path / kResultsName).answers;
   }
   return results;
 }
@@ -317,10 +330,21 @@ TraceSet derived_set(const Evaluation& evaluation) {
           static_cast<std::int64_t>(evaluation.point.id), evaluation.derived};
 }
 
-std::vector<NamedText> tuning_texts(const Table& tuning) {
-  const Attribute* json = find_attribute(tuning, "certificate");
-  return {{fmt::format("{}{}", kTuningPrefix, tuning.name), std::get<std::string>(json->value)},
-          {fmt::format("{}{}", kTuningTablesPrefix, tuning.name), to_bytes(tuning.parts)}};
+std::vector<NamedText> answer_texts(const VerbAnswer& answer) {
+  const Attribute* json = find_attribute(answer.tables, kAnswer);
+  const std::string_view kind = name_of(answer.kind);
+  return {{fmt::format("{}/{}", kind, answer.tables.name), std::get<std::string>(json->value)},
+          {fmt::format("{}{}/{}", kind, kTablesSuffix, answer.tables.name),
+           to_bytes(answer.tables.parts)}};
+}
+
+std::optional<AnswerKind> answer_kind_of(const NamedText& text) {
+  const std::string_view name = text.name;
+  const std::size_t slash = name.find('/');
+  if (slash == std::string_view::npos) return std::nullopt;
+  std::string_view kind = name.substr(0, slash);
+  if (kind.ends_with(kTablesSuffix)) kind.remove_suffix(kTablesSuffix.size());
+  return find_word<AnswerKind>(kind);
 }
 
 std::string write_results(const std::filesystem::path& path, const StudyResults& results) {

@@ -4,12 +4,13 @@
 //               parent_evaluation. Failed rows stay, with NaN and their cause. What is derived of
 //               the input has the role "derived".
 //   /reference/<name>, /traces/<name>   time histories over their time
-//   /tuning/<name>, /convergence/<name> groups of columns, texts as attributes
+//   /tuning/<name>, /calibration/<name>, /convergence/<name> groups of columns, the answer as JSON
 //   /runtime    wall time, rank, host of each evaluation: outside the digest
 //   /provenance one row per start or resume; texts (input, resolved input, build, machine)
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "study/record/table.h"
 #include "study/store/journal.h"
@@ -19,13 +20,15 @@ namespace linkstudy {
 
 // Results as far as a journal knows them: description, evaluations, traces, provenance, texts and
 // input digest. Traces whose name begins with "reference" become references, those of derived_set
-// go to their evaluation, and the texts of tuning_texts become tunings.
+// go to their evaluation, and the texts of answer_texts become answers.
 StudyResults results_from(const JournalContents& contents);
 
-// How the journal keeps what is derived for an evaluation, and a tuning: its tables, and its JSON
-// object, the attribute "certificate".
+// How the journal keeps what is derived for an evaluation, and an answer: its JSON object, and its
+// tables.
 TraceSet derived_set(const Evaluation& evaluation);
-std::vector<NamedText> tuning_texts(const Table& tuning);
+std::vector<NamedText> answer_texts(const VerbAnswer& answer);
+// Of which kind a text of answer_texts is; nothing where it is none.
+std::optional<AnswerKind> answer_kind_of(const NamedText& text);
 
 // Writes the file whole or not at all and returns the results digest in it.
 std::string write_results(const std::filesystem::path& path, const StudyResults& results);

@@ -6,6 +6,7 @@
 
 #include "study/record/digest.h"
 #include "study/store/file.h"
+#include "study/store/results_file.h"
 
 namespace linkstudy {
 namespace {
@@ -31,7 +32,7 @@ std::optional<double> time_left(const JournalContents& contents, const StudyStat
 // A tune is complete with its answer; how many evaluations that takes shows only then.
 bool has_answer(const JournalContents& contents) {
   return std::ranges::any_of(
-      contents.texts, [](const NamedText& text) { return text.name.starts_with("tuning/"); });
+      contents.texts, [](const NamedText& text) { return answer_kind_of(text).has_value(); });
 }
 
 void find_total(const JournalContents& contents, StudyStatus& status) {

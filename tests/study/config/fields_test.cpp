@@ -119,7 +119,7 @@ using Enumerations =
                      Stabilization, SdeForm, SdeAxes, TiltMeasure, SdeStart, ClearanceKind,
                      FreeBristle, ContactPoints, CourseShape, ResistanceShape, Integrator,
                      RedundantReactions, Start, MotionLaw, Cause, SectionShape, LoadKind, FileKind,
-                     StudyKind, Design, ErrorNorm, ErrorScale, Reduction, FailurePolicy>;
+                     Design, ErrorNorm, ErrorScale, Reduction, FailurePolicy>;
 TYPED_TEST_SUITE(WordsOf, Enumerations);
 
 TYPED_TEST(WordsOf, Every_enumerator_is_written_as_a_default_and_read_back) {
@@ -135,10 +135,8 @@ TYPED_TEST(WordsOf, Every_enumerator_is_written_as_a_default_and_read_back) {
 
 // Every switch that a row names, and every word that it may hold, exists.
 TEST(Fields, Conditions_and_effects_name_words_of_their_switches) {
-  for (const KeyNode* schema : {&model_schema(), &study_schema(), &tune_schema()}) {
-    const auto* rows = schema == &model_schema()   ? &model_rows()
-                       : schema == &study_schema() ? &study_rows()
-                                                   : &tune_rows();
+  for (const Word<FileKind>& kind : kWords<FileKind>) {
+    const auto* rows = &key_rows(kind.value);
     const auto find_row = [&](const std::string& path) -> const KeyRow* {
       const auto found = std::ranges::find(*rows, path, &KeyRow::path);
       return found == rows->end() ? nullptr : &*found;
@@ -228,9 +226,7 @@ TEST(Resolved, Every_study_of_ours_holds_all_defaults_and_reads_back_to_itself) 
     Diagnostics diagnostics;
     const std::optional<StudyInput> input = read_study(file, {}, diagnostics);
     ASSERT_TRUE(input) << to_string(diagnostics);
-    expect_defaults(input->resolved,
-                    input->kind == StudyKind::tune ? tune_schema() : study_schema(),
-                    file.stem().string() + ": ");
+    expect_defaults(input->resolved, key_schema(input->kind), file.stem().string() + ": ");
     const std::string text = write_toml(input->resolved);
     const fs::path written = copy / "studies" / file.filename();
     std::ofstream(written) << text;

@@ -208,8 +208,8 @@ TEST(Reference, Every_key_of_the_reference_linkage_is_described) {
 
 TEST(Reference, The_markdown_has_a_row_for_every_key_and_six_columns) {
   const std::string text = key_reference_markdown();
-  for (const auto* rows : {&model_rows(), &study_rows(), &tune_rows()}) {
-    for (const KeyRow& row : *rows) {
+  for (const Word<FileKind>& kind : kWords<FileKind>) {
+    for (const KeyRow& row : key_rows(kind.value)) {
       const bool is_planned = row.type == KeyType::planned;
       EXPECT_EQ(text.find("| `" + row.path + "` |") == std::string::npos, is_planned) << row.path;
     }
@@ -225,8 +225,8 @@ TEST(Reference, The_markdown_has_a_row_for_every_key_and_six_columns) {
 }
 
 TEST(Reference, Every_row_has_a_meaning_and_no_required_key_a_default) {
-  for (const auto* rows : {&model_rows(), &study_rows(), &tune_rows()}) {
-    for (const KeyRow& row : *rows) {
+  for (const Word<FileKind>& kind : kWords<FileKind>) {
+    for (const KeyRow& row : key_rows(kind.value)) {
       EXPECT_FALSE(row.meaning.empty()) << row.path;
       EXPECT_FALSE(row.required && !row.standard.empty()) << row.path;
     }

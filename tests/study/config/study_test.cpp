@@ -114,7 +114,7 @@ std::vector<double> numbers(const VaryInput& vary) {
 
 TEST(Study, A_tune_file_is_read) {
   const StudyInput input = good(kTune);
-  EXPECT_EQ(input.kind, StudyKind::tune);
+  EXPECT_EQ(input.kind, FileKind::tune);
   EXPECT_EQ(input.name, "lowest spherical-joint stiffness of RSRRP");
   ASSERT_EQ(input.tune.size(), 1u);
   EXPECT_EQ(input.tune[0].parameter.path, "closure.S.sde.stiffness");
@@ -158,7 +158,7 @@ TEST(Study, Base_reference_and_load_cases_build_their_models) {
 
 TEST(Study, Varied_values_are_expanded_in_the_unit_of_their_key) {
   const StudyInput input = good(kStudy);
-  EXPECT_EQ(input.kind, StudyKind::study);
+  EXPECT_EQ(input.kind, FileKind::study);
   EXPECT_EQ(input.design, Design::grid);
   ASSERT_EQ(input.vary.size(), 5u);
   EXPECT_THAT(numbers(input.vary[0]), ElementsAre(1e4, 1e5, 1e6, 1e7, 1e8));
@@ -305,7 +305,7 @@ TEST(Study, Wrong_study_keys_are_errors_with_a_place) {
       {kTune, "model = \"rsrrp.toml\"", "model = @\"rsrp.toml\"", "the file cannot be opened"},
       {kTune, "model = \"rsrrp.toml\"", "model = @\"..\"", "got a directory"},
       {kTune, "model = \"rsrrp.toml\"", "model = @\"\"", "model must not be empty"},
-      {kTune, "kind = \"tune\"", "kind = @\"tunes\"", "kind must be model, study or tune",
+      {kTune, "kind = \"tune\"", "kind = @\"tunes\"", "there is no kind 'tunes' of files",
        "did you mean 'tune'?"},
       {kTune, "norm = \"max\"", "norm = @\"maximum\"", "norm must be one of max, rms"},
       {kTune, "tolerance = 0.02", "tolerance = @0", "match 0: tolerance must be positive, got 0"},

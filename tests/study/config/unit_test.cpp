@@ -154,8 +154,8 @@ TEST(Unit, Numbers_that_are_not_finite_are_no_quantities) {
 }
 
 TEST(Unit, Every_unit_of_the_key_tables_parses_and_is_SI_or_per_revolution) {
-  for (const auto* rows : {&model_rows(), &study_rows(), &tune_rows()}) {
-    for (const KeyRow& row : *rows) {
+  for (const Word<FileKind>& kind : kWords<FileKind>) {
+    for (const KeyRow& row : key_rows(kind.value)) {
       for (const std::string& text : unit_alternatives(row.unit)) {
         const std::optional<Unit> unit = parse_unit(text);
         ASSERT_TRUE(unit) << row.path;

@@ -165,7 +165,7 @@ const Wrong kWords[] = {
      "closure 'S': type must be one of spherical, revolute"},
     {"other_format", "format = 1", "format = @2", "format must be 1, got 2"},
     {"other_kind", "kind = \"model\"", "kind = @\"modell\"",
-     "kind must be model, study or tune, got 'modell'", "did you mean 'model'?"},
+     "there is no kind 'modell' of files", "did you mean 'model'?"},
     {"planned_kind", "kind = \"model\"", "kind = @\"converge\"",
      "kind = 'converge' is not supported", "supported: model, study, tune"},
     {"study_for_model", "kind = \"model\"", "kind = @\"study\"", "a model is expected here"},

@@ -175,7 +175,8 @@ TEST(ResultsTables, Are_listed_with_their_rows) {
   EXPECT_THAT(list, HasSubstr("provenance      0  "));
   EXPECT_THAT(list, Not(HasSubstr("tuning")));
   EXPECT_THAT(list, Not(HasSubstr("traces")));
-  results.tunings = {{"S", {}, {}, {{"result", {{"value", "N/m", "", "", std::vector{1e6}}}}}}};
+  results.answers = {{AnswerKind::tuning,
+                      {"S", {}, {}, {{"result", {{"value", "N/m", "", "", std::vector{1e6}}}}}}}};
   EXPECT_THAT(text_of(list_tables(results)), HasSubstr("tuning          1  the answer"));
   EXPECT_EQ(csv_of(make_results_table(results, "tuning")), "# units: N/m\nvalue\n1000000\n");
 }

@@ -84,18 +84,19 @@ TEST_F(ResultsFile, Gives_the_same_results_back) {
 TEST_F(ResultsFile, Keeps_tunings_of_any_shape) {
   write_results(path(), sample::results());
   const StudyResults read = read_results(path());
-  ASSERT_EQ(read.tunings.size(), 1u);
+  ASSERT_EQ(read.answers.size(), 1u);
   const Table expected = sample::tuning();
-  EXPECT_EQ(read.tunings[0].name, expected.name);
-  EXPECT_THAT(read.tunings[0].attributes, testing::UnorderedElementsAreArray(expected.attributes));
-  EXPECT_EQ(read.tunings[0].parts, expected.parts);
+  EXPECT_EQ(read.answers[0].tables.name, expected.name);
+  EXPECT_THAT(read.answers[0].tables.attributes,
+              testing::UnorderedElementsAreArray(expected.attributes));
+  EXPECT_EQ(read.answers[0].tables.parts, expected.parts);
 }
 
 // As a session journals them: what is derived before its evaluation, a tuning as two texts.
 TEST_F(ResultsFile, Has_the_same_derived_numbers_and_tunings_by_journal_and_by_file) {
   const StudyResults written = sample::results();
   Table tuning = sample::tuning();
-  tuning.attributes = {{"certificate", std::string("{}")}};
+  tuning.attributes = {{"answer", std::string("{}")}};
   {
     Journal journal(dir_, sample::kInputSha256, OpenMode::resume);
     journal.append(written.description);
@@ -104,7 +105,7 @@ TEST_F(ResultsFile, Has_the_same_derived_numbers_and_tunings_by_journal_and_by_f
       if (!one.derived.empty()) journal.append(derived_set(one));
       journal.append(one);
     }
-    for (const NamedText& text : tuning_texts(tuning)) journal.append(text);
+    for (const NamedText& text : answer_texts({AnswerKind::tuning, tuning})) journal.append(text);
   }
   const StudyResults found = read_stored(dir_);
   write_results(path(), found);
@@ -115,8 +116,8 @@ TEST_F(ResultsFile, Has_the_same_derived_numbers_and_tunings_by_journal_and_by_f
       expect_same_derived(read.evaluations[i], written.evaluations[i]);
     }
     EXPECT_TRUE(read.traces.empty());
-    ASSERT_EQ(read.tunings.size(), 1u);
-    EXPECT_EQ(read.tunings[0], tuning);
+    ASSERT_EQ(read.answers.size(), 1u);
+    EXPECT_EQ(read.answers[0].tables, tuning);
   }
 }
 
@@ -129,9 +130,9 @@ TEST_F(ResultsFile, Lends_a_directory_the_tables_of_a_tuning_that_its_journal_la
     journal.append(NamedText{"tuning/S", "{}"});
   }
   write_results(path(), results);
-  EXPECT_EQ(read_stored(dir_).tunings.at(0).parts, sample::tuning().parts);
+  EXPECT_EQ(read_stored(dir_).answers.at(0).tables.parts, sample::tuning().parts);
   std::filesystem::remove(path());
-  EXPECT_TRUE(read_stored(dir_).tunings.at(0).parts.empty());
+  EXPECT_TRUE(read_stored(dir_).answers.at(0).tables.parts.empty());
 }
 
 TEST_F(ResultsFile, Is_the_same_whether_it_comes_from_memory_or_from_the_journal) {
@@ -154,9 +155,9 @@ TEST_F(ResultsFile, Is_the_same_whether_it_comes_from_memory_or_from_the_journal
   expect_same(read.references, written.references);
   expect_same(read.traces, written.traces);
   EXPECT_EQ(read.git_revision, written.git_revision);
-  ASSERT_EQ(read.tunings.size(), 1u);
-  EXPECT_EQ(read.tunings[0].attributes,
-            (std::vector<Attribute>{{"certificate", std::string("{\"C0\": true}")}}));
+  ASSERT_EQ(read.answers.size(), 1u);
+  EXPECT_EQ(read.answers[0].tables.attributes,
+            (std::vector<Attribute>{{"answer", std::string("{\"C0\": true}")}}));
 }
 
 TEST_F(ResultsFile, Of_a_study_without_rows_opens) {

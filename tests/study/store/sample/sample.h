@@ -95,7 +95,7 @@ inline StudyResults results() {
   results.evaluations = {evaluation(0), evaluation(1), failed_evaluation(2), evaluation(3)};
   results.references = {traces("reference", -1, 1501)};
   results.traces = {traces("evaluation_3", 3, 20)};
-  results.tunings = {tuning()};
+  results.answers = {{AnswerKind::tuning, tuning()}};
   results.provenance = {
       {"start", 1.7e9 + 0.25, 4, 3, "n1", "0.1.0", "05ba0c3", "linkstudy study", "avx2", 4},
       {"resume", 1.7e9 + 60, 4, 2, "n2", "0.1.0", "05ba0c3", "linkstudy study", "avx512", 8, "12_3",

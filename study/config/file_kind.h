@@ -1,0 +1,17 @@
+// What an input file describes: one kind, one set of keys, and (but for a model) one verb of its
+// name.
+#pragma once
+
+#include "core/base/words.h"
+
+namespace linkstudy {
+
+enum class FileKind { model, study, tune };
+
+template <>
+inline constexpr auto kWords<FileKind> =
+    make_words<FileKind>({{FileKind::model, "model", "one mechanism"},
+                          {FileKind::study, "study", "a parameter study of a model"},
+                          {FileKind::tune, "tune", "the lowest value that matches a reference"}});
+
+}  // namespace linkstudy
