@@ -17,10 +17,10 @@ using Eigen::VectorXd;
 
 constexpr int kMaxSteps = 200;
 constexpr int kMaxHalvings = 12;
-constexpr double kLongestStep = 0.2;  // rad or m
-constexpr double kFloor = 1e-6;       // of the largest stiffness
-constexpr double kOvershoot = 0.5;    // of the force along a step, that may be left against it
-constexpr double kNear = 1e-6;        // of the force at the start: Newton finishes from there
+constexpr double kLongestDescent = 0.2;  // rad or m
+constexpr double kFloor = 1e-6;          // of the largest stiffness
+constexpr double kOvershoot = 0.5;       // of the force along a step, that may be left against it
+constexpr double kNear = 1e-6;           // of the force at the start: Newton finishes from there
 
 class Descent {
  public:
@@ -73,7 +73,7 @@ class Descent {
     VectorXd step = solver.eigenvectors() *
                     (solver.eigenvectors().transpose() * force).cwiseQuotient(stiffness);
     const double longest = f.measure.cwiseProduct(f.basis * step).lpNorm<Eigen::Infinity>();
-    if (longest > kLongestStep) step *= kLongestStep / longest;
+    if (longest > kLongestDescent) step *= kLongestDescent / longest;
     for (int i = 0; i < kMaxHalvings; ++i) {
       const State<double> next = moved(s, f, step);
       if (force_along(next, f).dot(step) >= -kOvershoot * force.dot(step)) return next;

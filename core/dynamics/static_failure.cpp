@@ -18,11 +18,11 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kMaxIterations = 80;
-constexpr double kLongestStep = 0.2;  // rad or m
-constexpr double kGone = 1e-3;        // of the stiffness times the force left: none against it
-constexpr double kNever = 1e-9;       // of force over a radian or metre: no stiffness at all
-constexpr double kTurned = 30.0;      // deg: where sines bend
+constexpr int kMostTries = 80;
+constexpr double kLongestTry = 0.2;  // rad or m
+constexpr double kGone = 1e-3;       // of the stiffness times the force left: none against it
+constexpr double kNever = 1e-9;      // of force over a radian or metre: no stiffness at all
+constexpr double kTurned = 30.0;     // deg: where sines bend
 
 std::string number(double x) {
   char text[32];
@@ -61,7 +61,7 @@ class LeastUnbalance {
     }
     Unbalanced here = at(start, lambda);
     double mu = 1e-6;  // of the largest diagonal entry
-    for (int i = 0; i < kMaxIterations && mu < 1e8; ++i) {
+    for (int i = 0; i < kMostTries && mu < 1e8; ++i) {
       const Unbalanced next = stepped(here, mu);
       const bool better = next.force.allFinite() && next.system.r.norm() < here.system.r.norm();
       if (better) here = next;
@@ -80,7 +80,7 @@ class LeastUnbalance {
     x.tail(here.lambda.size()) *= e.scale;
     const auto n = static_cast<Eigen::Index>(free_.size());
     const double longest = x.head(n).lpNorm<Eigen::Infinity>();
-    if (longest > kLongestStep) x *= kLongestStep / longest;
+    if (longest > kLongestTry) x *= kLongestTry / longest;
     const int nv = model_.mechanism.nv;
     return at(displaced(model_.mechanism, here.state, scatter_entries(x.head(n), free_, nv)),
               here.lambda + x.tail(here.lambda.size()));

@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double kLongestStep = 0.03;    // norm of the rates over a step, rad and extents
+constexpr double kLongestStride = 0.03;  // norm of the rates over a step, rad and extents
 constexpr double kShortestStep = 1e-12;  // of the drives, rad and extents
 constexpr double kCorrected = 0.2;       // largest correction, relative to the step
 constexpr double kTurned = 0.3;          // largest change of the rates against their prediction
@@ -75,7 +75,7 @@ class Follower {
 
   void begin(const Place& start) {
     track_ = {start};
-    stride_ = kLongestStep;
+    stride_ = kLongestStride;
     see_quality();
     if (start.is_singular) note(start.time, start.s);
   }
@@ -171,12 +171,12 @@ class Follower {
   // between branches that only nearly meet is followed round, not leapt over.
   double longest_step_here() const {
     const Place& b = place();
-    if (b.is_singular) return kLongestStep;
+    if (b.is_singular) return kLongestStride;
     if (track_.size() < 2) return std::max(0.5 * kApproach * b.quality, kNearest);
     const Place& a = track_[track_.size() - 2];
     const double apart = linkage_.difference(a.s, b.s).norm();
     const double fall = a.quality - b.quality;
-    if (!(fall > 0.0)) return kLongestStep;
+    if (!(fall > 0.0)) return kLongestStride;
     return std::max(kApproach * b.quality * apart / fall, kNearest);
   }
 
@@ -187,7 +187,7 @@ class Follower {
       if (step.motion.drive.norm() < kShortestStep) return rest(step, target);
       std::optional<Place> next = try_step(step);
       if (!next) continue;
-      stride_ = std::min(kLongestStep, 2.0 * length);
+      stride_ = std::min(kLongestStride, 2.0 * length);
       add(std::move(*next), step, target);
       return true;
     }
@@ -202,7 +202,7 @@ class Follower {
 
   // Over a crossing of branches that stops small steps.
   bool jump_towards(double target) {
-    stride_ = kLongestStep;
+    stride_ = kLongestStride;
     const Step least = choose_step(kNearest, target);
     if (least.motion.first.norm() > kRunaway * least.motion.drive.norm()) return false;
     for (const double length : {3e-5, 3e-4, 3e-3}) {
@@ -294,7 +294,7 @@ class Follower {
     const VectorXd direction = direction_to(target);
     const PoseCurve curve(linkage_, direction);
     const VectorXd tangent = curve.tangent(place().s, place().leave);
-    for (double length = 0.6 * kLongestStep; length > kShortestStep; length *= 0.5) {
+    for (double length = 0.6 * kLongestStride; length > kShortestStep; length *= 0.5) {
       const auto reached = curve.at(place().s, length * tangent);
       const double way = reached ? curve.way_between(place().s, *reached) : -1.0;
       if (way <= 0.0) return false;
@@ -345,7 +345,7 @@ class Follower {
   std::vector<SingularPosition>& singular_;
   std::vector<Place> track_;  // the last three
   Transmission worst_{1.0, 0.0, {}};
-  double stride_ = kLongestStep;  // norm of the rates over the next step
+  double stride_ = kLongestStride;  // norm of the rates over the next step
 };
 
 // At a singular start the linear solves do not tell the motion; the neighbour that moves the drives

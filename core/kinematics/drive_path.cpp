@@ -8,7 +8,6 @@
 namespace linkstudy {
 namespace {
 
-using Eigen::Index;
 using Eigen::VectorXd;
 
 // A law, with its derivatives by s.
@@ -73,8 +72,8 @@ DrivePath::DrivePath(std::vector<DriveCourse> courses, double duration)
 DrivePath DrivePath::straight(const VectorXd& from, const VectorXd& to) {
   std::vector<DriveCourse> courses(static_cast<std::size_t>(from.size()));
   for (std::size_t i = 0; i < courses.size(); ++i) {
-    courses[i].from = from[static_cast<Index>(i)];
-    courses[i].to = to[static_cast<Index>(i)];
+    courses[i].from = from[static_cast<Eigen::Index>(i)];
+    courses[i].to = to[static_cast<Eigen::Index>(i)];
   }
   return {courses, 1.0};
 }
@@ -92,9 +91,9 @@ double DrivePath::longest_step() const {
 }
 
 DriveMotion DrivePath::at(double t) const {
-  const auto n = static_cast<Index>(courses_.size());
+  const auto n = static_cast<Eigen::Index>(courses_.size());
   DriveMotion motion{VectorXd(n), VectorXd(n), VectorXd(n)};
-  for (Index i = 0; i < n; ++i) {
+  for (Eigen::Index i = 0; i < n; ++i) {
     const auto k = static_cast<std::size_t>(i);
     const DriveCourse& course = courses_[k];
     Law law;

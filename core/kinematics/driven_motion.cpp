@@ -12,11 +12,11 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Svd = Eigen::JacobiSVD<MatrixXd>;
 
-constexpr int kMaxIterations = 15;
-constexpr double kResidual = 1e-12;    // without dimensions
-constexpr double kCorrection = 1e-10;  // of the last iteration
-constexpr double kFarthest = 1.0;      // a longer correction leads elsewhere
-constexpr double kCutoff = 1e-9;       // of singular values that a correction follows, relative
+constexpr int kMostCorrections = 15;
+constexpr double kResidual = 1e-12;         // without dimensions
+constexpr double kCorrection = 1e-10;       // of the last iteration
+constexpr double kLongestCorrection = 1.0;  // a longer correction leads elsewhere
+constexpr double kCutoff = 1e-9;  // of singular values that a correction follows, relative
 
 Svd decompose(const MatrixXd& a) {
   return Svd(a, Eigen::ComputeThinU | Eigen::ComputeThinV);
@@ -205,11 +205,11 @@ State<double> DrivenLinkage::moved(const State<double>& s, const VectorXd& dy,
 bool DrivenLinkage::close(State<double>& s) const {
   const Mechanism& m = closed_->mechanism;
   if (rank_ == 0) return residual(s) < kClosedTolerance;
-  for (int i = 0; i < kMaxIterations; ++i) {
+  for (int i = 0; i < kMostCorrections; ++i) {
     const ScaledClosures c = compute_scaled_closures(*closed_, scale_, s);
     const Svd svd = decompose(take_columns(c.jacobian, dependent_));
     const VectorXd x = solve_within(svd, rank_, -c.residual);
-    if (!(x.norm() < kFarthest)) return false;
+    if (!(x.norm() < kLongestCorrection)) return false;
     s = displaced(m, s, scale_.velocity.cwiseProduct(scatter_entries(x, dependent_, m.nv)));
     if (x.norm() >= kCorrection) continue;
     // What redundant rows leave open by their rounding no correction can close.

@@ -70,10 +70,6 @@ po::variables_map parse_options(const VerbRow& verb, const std::vector<std::stri
   return values;
 }
 
-void require(bool holds, const std::string& message) {
-  if (!holds) throw UsageError(message);
-}
-
 void check_inputs(const VerbRow& verb, const CommandLine& line) {
   const std::size_t count = line.inputs.size();
   if (count >= verb.fewest && count <= verb.most) return;
@@ -81,6 +77,10 @@ void check_inputs(const VerbRow& verb, const CommandLine& line) {
 }
 
 }  // namespace
+
+void require(bool holds, const std::string& message) {
+  if (!holds) throw UsageError(message);
+}
 
 CommandLine parse_command_line(const std::vector<std::string>& arguments) {
   CommandLine line;

@@ -43,6 +43,9 @@ struct CommandLine : SessionOptions, CourseRequest {
 // Throws UsageError. The verb "version" or "help" stands for --version and --help alone.
 CommandLine parse_command_line(const std::vector<std::string>& arguments);
 
+// Throws UsageError with the message unless it holds.
+void require(bool holds, const std::string& message);
+
 // How to use the program, or one verb.
 std::string usage();
 std::string usage_of(const std::string& verb);

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <boost/algorithm/string/replace.hpp>
 #include <map>
 #include <set>
 
@@ -17,18 +18,13 @@
 namespace linkstudy {
 namespace {
 
-std::string replace_all(std::string text, const std::string& from, const std::string& to) {
-  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
-    text.replace(at, from.size(), to);
-  }
-  return text;
-}
+using boost::algorithm::replace_all_copy;
 
 // A backslash, a minus and what would be a request at the head of a line.
 std::string roff(const std::string& text) {
-  const std::string quoted = replace_all(replace_all(text, "\\", "\\e"), "-", "\\-");
-  std::string lines = replace_all(quoted, "\n.", "\n\\&.");
-  lines = replace_all(lines, "\n'", "\n\\&'");
+  const std::string quoted = replace_all_copy(replace_all_copy(text, "\\", "\\e"), "-", "\\-");
+  std::string lines = replace_all_copy(quoted, "\n.", "\n\\&.");
+  lines = replace_all_copy(lines, "\n'", "\n\\&'");
   return lines.starts_with('.') || lines.starts_with('\'') ? "\\&" + lines : lines;
 }
 
@@ -170,7 +166,7 @@ std::string bash_completion() {
       {"@OPTIONS@", options_case()},
       {"@KINDS@", fmt::format("{}", fmt::join(starter_kinds(), " "))}};
   std::string text = kCompletion;
-  for (const auto& [mark, value] : texts) text = replace_all(text, mark, value);
+  for (const auto& [mark, value] : texts) text = replace_all_copy(text, mark, value);
   return text;
 }
 

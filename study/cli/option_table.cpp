@@ -110,7 +110,7 @@ Rows file_options() {
 }
 
 // Of how a study or tune is run.
-Rows run_options() {
+Rows run_rows() {
   using Line = CommandLine;
   return {
       {"seed", "N", "seed of random numbers", fill(&Line::seed)},
@@ -163,16 +163,12 @@ Rows course_options() {
 const Rows& option_rows() {
   static const Rows rows = [] {
     Rows all = file_options();
-    for (const Rows& more : {run_options(), course_options()}) {
+    for (const Rows& more : {run_rows(), course_options()}) {
       all.insert(all.end(), more.begin(), more.end());
     }
     return all;
   }();
   return rows;
-}
-
-void require(bool holds, const std::string& message) {
-  if (!holds) throw UsageError(message);
 }
 
 void check_word(const char* option, const CommandLine& line, const std::string& word) {

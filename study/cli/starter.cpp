@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <boost/algorithm/string/replace.hpp>
 #include <sstream>
 #include <stdexcept>
 
@@ -10,15 +11,10 @@
 namespace linkstudy {
 namespace {
 
+using boost::algorithm::replace_all_copy;
+
 constexpr std::size_t kWidth = 100;
 constexpr std::size_t kCommentColumn = 44;
-
-std::string replace_all(std::string text, const std::string& what, const std::string& with) {
-  for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += with.size()) {
-    text.replace(at, what.size(), with);
-  }
-  return text;
-}
 
 // The part of the batch script that must be there for its replacement to mean anything.
 std::string replace_part(const std::string& text, const std::string& from, const std::string& to,
@@ -73,9 +69,9 @@ const std::string& text_of(const std::string& kind) {
 }
 
 std::string fill_in(std::string text, const StarterNames& names) {
-  text = replace_all(std::move(text), "FILE_NAME", names.file);
-  text = replace_all(std::move(text), "MODEL_NAME", names.model);
-  return replace_all(std::move(text), "RESULTS_NAME", names.results);
+  text = replace_all_copy(text, "FILE_NAME", names.file);
+  text = replace_all_copy(text, "MODEL_NAME", names.model);
+  return replace_all_copy(text, "RESULTS_NAME", names.results);
 }
 
 }  // namespace

@@ -10,14 +10,14 @@
 namespace linkstudy {
 namespace {
 
-constexpr std::size_t kWidth = 98;
+constexpr std::size_t kPageWidth = 98;
 
 std::string indented(const std::string& words) {
   std::string text;
   std::string line = "   ";
   std::istringstream stream(words);
   for (std::string word; stream >> word;) {
-    if (line.size() + 1 + word.size() > kWidth) {
+    if (line.size() + 1 + word.size() > kPageWidth) {
       text += line + "\n";
       line = "   ";
     }

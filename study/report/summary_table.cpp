@@ -12,10 +12,10 @@
 namespace linkstudy {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
 struct Worst {
-  double error = kNan;
+  double error = kNoValue;
   std::size_t component = 0;
 };
 
@@ -122,12 +122,12 @@ class Summary {
     add(name, unit, "what the input says in other terms", "{:.4g}",
         [&](const Evaluation& e, const StoredCase& one) {
           const Trace* derived = find_derived(e, prefix_of(one) + name);
-          return derived == nullptr ? kNan : derived->values.front();
+          return derived == nullptr ? kNoValue : derived->values.front();
         });
   }
 
   static double response(const Evaluation& evaluation, std::size_t index) {
-    return index < evaluation.responses.size() ? evaluation.responses[index] : kNan;
+    return index < evaluation.responses.size() ? evaluation.responses[index] : kNoValue;
   }
 
   static Worst find_worst(const Evaluation& evaluation, std::size_t first, std::size_t count) {

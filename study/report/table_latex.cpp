@@ -9,9 +9,9 @@
 namespace linkstudy {
 namespace {
 
-constexpr std::size_t kHeadWidth = 10;  // names are broken into lines of no less
+constexpr std::size_t kLeastHeadWidth = 10;  // names are broken into lines of no less
 
-std::string escaped(std::string_view text) {
+std::string latex_escaped(std::string_view text) {
   std::string safe;
   for (char c : text) {
     switch (c) {
@@ -44,7 +44,7 @@ std::string escaped(std::string_view text) {
 std::string unit_of(const std::string& unit) {
   if (unit.empty() || unit == "1") return "";
   if (unit == "%") return "\\si{\\percent}";
-  if (unit.find_first_of("#$%&_{}\\:") != std::string::npos) return escaped(unit);
+  if (unit.find_first_of("#$%&_{}\\:") != std::string::npos) return latex_escaped(unit);
   std::string literal = unit;
   std::ranges::replace(literal, ' ', '.');
   return fmt::format("\\si{{{}}}", literal);
@@ -152,7 +152,7 @@ LatexColumn latex_column(const Column& column) {
     const std::string infinite = cell.starts_with('-') ? "{$-\\infty$}" : "{$\\infty$}";
     latex.cells.push_back(numbers[row]  ? numbers[row]->text()
                           : is_infinite ? infinite
-                                        : escaped(cell));
+                                        : latex_escaped(cell));
   }
   return latex;
 }
@@ -171,7 +171,7 @@ std::string names_of(const Table& table, std::size_t rows) {
   std::vector<std::vector<std::string>> heads;
   std::size_t most = 0;
   for (const Column& column : table.columns) {
-    std::size_t width = kHeadWidth;
+    std::size_t width = kLeastHeadWidth;
     for (std::size_t row = 0; row < rows; ++row) {
       width = std::max(width, text_width(shown(column, row, "")));
     }
@@ -183,7 +183,7 @@ std::string names_of(const Table& table, std::size_t rows) {
     text += line(table, [&](const Column& column) {
       const auto& head = heads[static_cast<std::size_t>(&column - table.columns.data())];
       const std::size_t above = most - head.size();
-      return head_cell(column, i < above ? "" : escaped(head[i - above]));
+      return head_cell(column, i < above ? "" : latex_escaped(head[i - above]));
     });
   }
   return text;

@@ -13,7 +13,7 @@
 namespace linkstudy {
 namespace {
 
-constexpr std::size_t kWidth = 100;  // of a file or a pipe
+constexpr std::size_t kFileWidth = 100;  // of a file or a pipe
 constexpr std::size_t kLeastWidth = 20;
 
 constexpr std::array<TableFormat, 5> kFormats = {{
@@ -49,7 +49,7 @@ std::size_t output_width() {
   }
   winsize size{};
   const bool is_known = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col >= kLeastWidth;
-  return is_known ? size.ws_col : kWidth;
+  return is_known ? size.ws_col : kFileWidth;
 }
 
 }  // namespace linkstudy
