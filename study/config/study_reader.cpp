@@ -5,6 +5,7 @@
 
 #include "study/config/fill.h"
 #include "study/config/precedence.h"
+#include "study/config/refine_checks.h"
 #include "study/config/study_cases.h"
 #include "study/config/study_checks.h"
 #include "study/config/study_input.h"
@@ -99,13 +100,17 @@ class StudyReader {
 
   void read_parameters() {
     const ModelDocument document = base_document();
-    const char* list = input_.kind == FileKind::study ? "vary" : "tune";
-    Tree* entries = study_.find(list);
+    Tree* entries = study_.find(list_of(input_.kind));
     if (entries != nullptr && entries->is(Kind::array)) {
       for (Tree& entry : entries->items) read_entry(document, entry);
       has_rows_ = have_equal_lengths();
       if (has_rows_) merge_equal_values(input_, written_, diagnostics_);
+      if (input_.kind == FileKind::converge) finish_refinement(input_, written_, diagnostics_);
     }
+  }
+
+  static const char* list_of(FileKind kind) {
+    return kind == FileKind::tune ? "tune" : kind == FileKind::converge ? "refine" : "vary";
   }
 
   void read_entry(const ModelDocument& document, Tree& entry) {

@@ -12,13 +12,15 @@ namespace {
 
 constexpr double kSafety = 1.25;         // three levels or more
 constexpr double kCautiousSafety = 3.0;  // two, or an order that is too good
-// Only changes below this fraction of the scale can be the noise of rounding: sqrt of epsilon.
+// Only changes below this fraction of the scale can be the noise of rounding: sqrt of epsilon where
+// they grow, and less where they merely leave their order.
 constexpr double kMostNoise = 1.5e-8;
+constexpr double kMostDisturbed = 1e-10;
 // A change is told from noise that is ten times less: it moves an order by log2(1.1) = 0.14.
 constexpr double kAboveNoise = 10.0;
 constexpr double kDisturbed = 0.1;  // of its order: a tiny change that is not all noise
 // Orders of neighbouring triples that count as the same: relative.
-constexpr double kSameOrder = 0.25;
+constexpr double kSameOrder = 0.1;
 
 double larger(double a, double b) {
   return std::isnan(a) ? b : std::isnan(b) ? a : std::max(a, b);
@@ -79,7 +81,7 @@ class Judge {
     for (std::size_t k = used_.size(); k-- > 3;) {
       if (row(k).is_floor) continue;
       const double before = order_between(k - 1);
-      const bool is_tiny = change_of(k) < kMostNoise * ladder_.scale;
+      const bool is_tiny = change_of(k) < kMostDisturbed * ladder_.scale;
       const bool goes_on = row(k).change * row(k - 1).change > 0.0 &&
                            std::abs(order_between(k) - before) <= kDisturbed * before;
       if (!is_tiny || goes_on) return;
@@ -142,7 +144,8 @@ class Judge {
     if (ladder_.has_limit) fine.extrapolated = fine.value + rest;
     const double trusted = is_too_good(order) ? options_.formal_order : order;
     fine.uncertainty = safety * std::abs(fine.change) / (std::pow(fine.ratio, trusted) - 1.0);
-    if (fine.value != 0.0) fine.gci = fine.uncertainty / std::abs(fine.value);
+    const double unit = ladder_.is_relative ? 1.0 : std::abs(fine.value);
+    if (unit > 0.0) fine.gci = fine.uncertainty / unit;
   }
 
   // Safety factors cancel.
@@ -285,8 +288,8 @@ class Judge {
   }
 
   void remark_floor() {
-    remark(fmt::format("changes of {:.1e} and less are rounding or its noise, left out",
-                       result_.noise));
+    remark(
+        fmt::format("changes of {:.1e} and less are rounding or noise, left out", result_.noise));
   }
 
   void remark_ratios() {

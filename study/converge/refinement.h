@@ -8,7 +8,7 @@
 // and only of monotone ones, with r = h2 / h1 (Roache 1994; Celik et al. 2008):
 //   extrapolated      f1 + (f1 - f2) / (r^p - 1)
 //   uncertainty       Fs |f1 - f2| / (r^q - 1),   Fs = 1.25, q = p
-//   GCI               uncertainty / |f1|
+//   GCI               uncertainty / |f1|; of relative errors the uncertainty
 //   asymptotic ratio  GCI32 / (r21^p GCI21), 1 where all three are asymptotic
 // Fs = 3 and q = the formal order where p exceeds twice the formal one, and where there are two
 // levels only, which show no order. Of the whole ladder:
@@ -58,6 +58,7 @@ struct Ladder {
   std::vector<double> change;  // NaN where there is none
   std::vector<double> error;   // against a reference; NaN, or empty, where there is none
   double scale = 1.0;          // what rounding is relative to
+  bool is_relative = false;    // values are relative errors already: GCI is the uncertainty itself
   bool has_limit = true;       // values approach a number that can be extrapolated
 };
 

@@ -166,8 +166,6 @@ const Wrong kWords[] = {
     {"other_format", "format = 1", "format = @2", "format must be 1, got 2"},
     {"other_kind", "kind = \"model\"", "kind = @\"modell\"",
      "there is no kind 'modell' of files", "did you mean 'model'?"},
-    {"planned_kind", "kind = \"model\"", "kind = @\"converge\"",
-     "kind = 'converge' is not supported", "supported: model, study, tune"},
     {"study_for_model", "kind = \"model\"", "kind = @\"study\"", "a model is expected here"},
 };
 

@@ -166,7 +166,7 @@ TEST(Refinement, Leaves_noise_of_the_finest_levels_out_of_the_order) {
     ASSERT_EQ(result.behaviour, Behaviour::monotone) << run;
     // A tiny change is used where its order is within a tenth of the one before, which may be one.
     ASSERT_NEAR(result.order, 4.0, 0.8) << run;
-    named += all_remarks(result).find("rounding or its noise") != std::string::npos ? 1 : 0;
+    named += all_remarks(result).find("rounding or noise") != std::string::npos ? 1 : 0;
   }
   EXPECT_GE(named, 170);  // the last change is below its noise, and looks right by luck
 }
