@@ -104,7 +104,7 @@ class Configs(unittest.TestCase):
             with self.subTest(file=path.name), tempfile.TemporaryDirectory() as folder:
                 done = run(kind, path, "-o", f"{folder}/results", *shortened(path),
                            *(search if kind == "tune" else []))
-                # So short a run need not hold what is tuned for (4: nothing feasible), nor converge.
+                # So short a run need not hold what is tuned for (4), nor converge (5).
                 codes = {"tune": (0, 4), "converge": (0, 5)}
                 self.assertIn(done.returncode, codes.get(kind, (0,)), done.stderr)
                 self.assertTrue(Path(folder, "results", "results.h5").exists())
