@@ -92,6 +92,8 @@ struct Evaluation {
   // N s/m where it gives a ratio), with the load case in front where there are several.
   std::vector<Trace> derived;
   std::vector<CaseTraces> traces;
+  // Of model and start; said by rank 0 and not stored.
+  std::vector<std::string> warnings;
 };
 
 void visit_members(auto& archive, Like<Evaluation> auto& evaluation) {
@@ -107,7 +109,8 @@ struct WholeEvaluation {
 };
 
 void visit_members(auto& archive, Like<WholeEvaluation> auto& whole) {
-  archive(whole.evaluation, whole.evaluation.derived, whole.evaluation.traces);
+  archive(whole.evaluation, whole.evaluation.derived, whole.evaluation.traces,
+          whole.evaluation.warnings);
 }
 
 }  // namespace linkstudy
