@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kMany = 1000000;
 
 // Verbs that later versions have.
-constexpr std::array kPlanned = {"plan", "report", "verify"};
+constexpr std::array kPlanned = {"plan", "report"};
 
 std::vector<std::string> run_options(const std::vector<std::string>& own = {}) {
   std::vector<std::string> names = {"output,o",     "set,s",     "seed",     "on-failure",
@@ -83,6 +83,13 @@ const std::vector<VerbRow>& verb_rows() {
        run_options({"batch"}), run_tune, true},
       {"converge", "FILE", 1, 1, "refines, and tells orders of convergence and errors",
        run_options(), run_converge, true},
+      {"verify",
+       "DIR|FILE.h5",
+       1,
+       1,
+       "runs evaluations of results again, compares bits, and judges their answer anew",
+       {"all", "count", "json"},
+       run_verify},
       {"status", "DIR", 1, 1, "tells how far a study is, running or dead", {"json"}, run_status},
       {"export",
        "DIR|FILE.h5",

@@ -34,6 +34,7 @@ int run_kinematics(const CommandLine& line);
 int run_study(const CommandLine& line);
 int run_tune(const CommandLine& line);
 int run_converge(const CommandLine& line);
+int run_verify(const CommandLine& line);
 int run_status(const CommandLine& line);
 int run_export(const CommandLine& line);
 

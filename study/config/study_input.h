@@ -150,6 +150,16 @@ struct StudyInput {
   std::vector<Diagnostic> remarks;  // warnings and notes
 };
 
+// What results keep of their input: with all defaults, and with what --set replaced.
+struct ResolvedTexts {
+  std::string study;
+  std::string model;
+  std::string reference;  // its model; empty where that is the same
+};
+// The input of results again, without the files it was read from; `file` is the name in messages.
+std::optional<StudyInput> read_study(const ResolvedTexts& texts, const std::string& file,
+                                     Diagnostics& diagnostics);
+
 // `set` are --set overrides: those of the study's own keys (run.seed, search.scan, ...) go there,
 // all others to what they name (precedence.h).
 std::optional<StudyInput> read_study(const std::string& path, std::span<const Override> set,

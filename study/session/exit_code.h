@@ -24,7 +24,7 @@ inline constexpr std::array kExitStatuses = {
     ExitStatus{kInternalError, "internal error"},
     ExitStatus{kInputError, "usage or input error"},
     ExitStatus{kTooManyFailed, "too many cases failed, or a single run did"},
-    ExitStatus{kNotTuned, "tuning found nothing or was refuted"},
+    ExitStatus{kNotTuned, "tuning found nothing, or results were refuted"},
     ExitStatus{kNotConverged, "a refined quantity shows no order of convergence"},
     ExitStatus{exit_resumable, "interrupted and resumable"}};
 
