@@ -30,6 +30,8 @@ struct CommandLine : SessionOptions, CourseRequest {
   std::optional<std::string> man;
   bool traces = false;
   bool list = false;
+  bool all = false;
+  std::optional<int> count;
   std::optional<std::string> table;
   std::optional<std::string> columns;  // a,b
   std::optional<std::string> rows;     // report/choose_table.h

@@ -17,19 +17,13 @@ std::string kind_of(const CommandLine& line) {
   const std::string& kind = line.inputs.front();
   const std::vector<std::string> kinds = starter_kinds();
   if (std::ranges::find(kinds, kind) != kinds.end()) return kind;
-  if (kind == "converge") {
-    throw UsageError(
-        fmt::format("init converge: refinement ladders are not supported in this "
-                    "version; kinds: {}",
-                    fmt::join(kinds, ", ")));
-  }
   throw UsageError(fmt::format("init: there is no kind '{}'; {}", kind, suggest_name(kind, kinds)));
 }
 
 void require_sense(const CommandLine& line, const std::string& kind) {
   if (!line.slurm) return;
   if (kind == "model") {
-    throw UsageError("init: --slurm goes with study and tune; a model is one short run");
+    throw UsageError("init: --slurm goes with study, tune and converge; a model is one short run");
   }
   if (!line.output) {
     throw UsageError("init: --slurm writes a script beside the input; add --output FILE");

@@ -88,6 +88,9 @@ Rows file_options() {
        "channels of --csv, or groups: closure.S.force, joint.A, energy; default: all; linkstudy "
        "describe channels MODEL",
        fill(&Line::signals)},
+      {"all", "", "every evaluation", fill_switch(&Line::all)},
+      {"count", "N", "evaluations to run again, beside those that a certificate rests on (8)",
+       fill(&Line::count)},
       {"list", "", "the tables there are, with their rows and what they hold",
        fill_switch(&Line::list)},
       {"table", "NAME", "which of them; default: summary", fill(&Line::table), {}, table_names()},
@@ -210,6 +213,8 @@ void check_values(const CommandLine& line) {
   require(is_positive(line.walltime_s), "--walltime must be a positive number of seconds");
   require(!line.positions || (*line.positions >= 2 && *line.positions <= 1000000),
           "--positions must be from 2 to 1000000");
+  require(!line.count || *line.count > 0, "--count must be positive");
+  require(!(line.count && line.all), "--all runs every evaluation; leave out --count");
   require(!line.batch || *line.batch > 0, "--batch must be positive");
   check_word("progress", line, line.progress);
   check_word("log-level", line, line.log_level);

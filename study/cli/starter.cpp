@@ -65,6 +65,7 @@ const std::string& text_of(const std::string& kind) {
   if (kind == "model") return texts.model;
   if (kind == "study") return texts.study;
   if (kind == "tune") return texts.tune;
+  if (kind == "converge") return texts.converge;
   throw std::logic_error("no starter of kind " + kind);
 }
 
@@ -77,7 +78,7 @@ std::string fill_in(std::string text, const StarterNames& names) {
 }  // namespace
 
 std::vector<std::string> starter_kinds() {
-  return {"model", "study", "tune"};
+  return {"model", "study", "tune", "converge"};
 }
 
 std::string make_starter(const std::string& kind, const StarterNames& names) {

@@ -14,6 +14,7 @@ struct StarterTexts {
   std::string model;
   std::string study;
   std::string tune;
+  std::string converge;
   std::string batch;
 };
 
@@ -26,7 +27,7 @@ struct StarterNames {
   std::string results;  // directory
 };
 
-// "model", "study", "tune"
+// "model", "study", "tune", "converge"
 std::vector<std::string> starter_kinds();
 
 // kind is one of starter_kinds().

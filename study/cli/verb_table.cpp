@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kMany = 1000000;
 
 // Verbs that later versions have.
-constexpr std::array kPlanned = {"plan", "converge", "report", "verify"};
+constexpr std::array kPlanned = {"plan", "report"};
 
 std::vector<std::string> run_options(const std::vector<std::string>& own = {}) {
   std::vector<std::string> names = {"output,o",     "set,s",     "seed",     "on-failure",
@@ -39,7 +39,7 @@ const std::vector<VerbRow>& verb_rows() {
        "KIND",
        1,
        1,
-       "writes a commented input to start from: model, study or tune",
+       "writes a commented input to start from: model, study, tune or converge",
        {"output,o", "slurm", "fresh"},
        run_init},
       {"check",
@@ -81,6 +81,15 @@ const std::vector<VerbRow>& verb_rows() {
        run_study, true},
       {"tune", "FILE", 1, 1, "finds the lowest value that matches the reference",
        run_options({"batch"}), run_tune, true},
+      {"converge", "FILE", 1, 1, "refines, and tells orders of convergence and errors",
+       run_options(), run_converge, true},
+      {"verify",
+       "DIR|FILE.h5",
+       1,
+       1,
+       "runs evaluations of results again, compares bits, and judges their answer anew",
+       {"all", "count", "json"},
+       run_verify},
       {"status", "DIR", 1, 1, "tells how far a study is, running or dead", {"json"}, run_status},
       {"export",
        "DIR|FILE.h5",

@@ -6,12 +6,18 @@
 
 namespace linkstudy {
 
-enum class FileKind { model, study, tune };
+enum class FileKind { model, study, tune, converge };
 
 template <>
 inline constexpr auto kWords<FileKind> =
     make_words<FileKind>({{FileKind::model, "model", "one mechanism"},
                           {FileKind::study, "study", "a parameter study of a model"},
-                          {FileKind::tune, "tune", "the lowest value that matches a reference"}});
+                          {FileKind::tune, "tune", "the lowest value that matches a reference"},
+                          {FileKind::converge, "converge", "how results change with refinement"}});
+
+// Whether its evaluations are a design, known before the first runs.
+constexpr bool has_design(FileKind kind) {
+  return kind == FileKind::study || kind == FileKind::converge;
+}
 
 }  // namespace linkstudy

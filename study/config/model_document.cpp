@@ -58,10 +58,6 @@ std::optional<FileKind> kind_of(const Tree& document, Diagnostics& diagnostics) 
   }
   const std::string word = kind->is(Tree::Kind::text) ? kind->text : std::string();
   if (const std::optional<FileKind> known = find_word<FileKind>(word)) return known;
-  if (word == "converge") {
-    diagnostics.add(kind->at, "kind = 'converge' is not supported in this version", kinds);
-    return std::nullopt;
-  }
   const std::string near = nearest_name(word, kind_words());
   diagnostics.add(kind->at, fmt::format("there is no kind {} of files", shown(*kind)),
                   near.empty() ? kinds : fmt::format("did you mean '{}'?", near));

@@ -76,8 +76,9 @@ class SourceCheck {
  public:
   SourceCheck(const StudyInput& input, Diagnostics& diagnostics)
       : input_(input), diagnostics_(diagnostics) {
+    const char* list = input.kind == FileKind::converge ? "[[refine]]" : "[[vary]]";
     for (const VaryInput& vary : input.vary) {
-      varied_.push_back({vary.parameter.path, vary.at, "[[vary]]"});
+      varied_.push_back({vary.parameter.path, vary.at, list});
     }
     for (const TuneInput& tune : input.tune) {
       varied_.push_back({tune.parameter.path, tune.at, "[[tune]]"});

@@ -22,12 +22,11 @@ std::size_t most_trials(const StudyInput& input) {
 }
 
 std::string path_of(const StudyInput& input, std::size_t i) {
-  return input.kind == FileKind::study ? input.vary[i].parameter.path
-                                       : input.tune[i].parameter.path;
+  return has_design(input.kind) ? input.vary[i].parameter.path : input.tune[i].parameter.path;
 }
 
 const Location& place_of(const StudyInput& input, std::size_t i) {
-  return input.kind == FileKind::study ? input.vary[i].at : input.tune[i].at;
+  return has_design(input.kind) ? input.vary[i].at : input.tune[i].at;
 }
 
 // Two spellings of one number differ by the rounding of their units at most.
@@ -268,7 +267,7 @@ void merge_equal_values(StudyInput& input, WrittenValues& written, Diagnostics& 
 void check_cases(const StudyInput& input, const WrittenValues& written,
                  std::span<const Override> command_line, Diagnostics& diagnostics) {
   if (!input.model) return;
-  if (input.kind == FileKind::study && report_size(input, written, diagnostics)) return;
+  if (has_design(input.kind) && report_size(input, written, diagnostics)) return;
   CaseCheck(input, written, command_line, diagnostics).run();
 }
 

@@ -78,6 +78,12 @@ void check_study(const Tree& study, FileKind kind, Diagnostics& diagnostics) {
     diagnostics.add(study.at, "a tune needs at least one [[match]]",
                     "add [[match]] with signal and tolerance");
   }
+  const bool has_quantity =
+      match != nullptr || study.find("response") != nullptr || study.find("series") != nullptr;
+  if (!has_quantity && kind == FileKind::converge) {
+    diagnostics.add(study.at, "a refinement needs something to judge",
+                    "add [[response]], [[series]] or [[match]]");
+  }
   if (match != nullptr && match->is_valid() && study.find("reference") == nullptr) {
     diagnostics.add(match->at, "[[match]] needs a reference to compare with",
                     "add reference = { set = { \"closure.S.model\" = \"cut\" } }");

@@ -1,5 +1,5 @@
-// Files of kind "study" and "tune": which model, what is varied or tuned, what is compared and
-// kept. Every parameter path is checked against the model, every value converted to its unit.
+// Files of all kinds but "model": which model, what is varied, tuned or refined, what is compared
+// and kept. Every parameter path is checked against the model, every value converted to its unit.
 // Names of signals are not judged here; `at` is the place for whoever does.
 #pragma once
 
@@ -13,6 +13,8 @@ enum class ErrorNorm { max, rms };
 enum class ErrorScale { component, vector };
 enum class Reduction { max, min, max_abs, rms, mean, last };
 enum class FailurePolicy { record, abort };
+// Where a refined value leads.
+enum class RefineLimit { zero, infinity };
 
 template <>
 inline constexpr auto kWords<ErrorNorm> = make_words<ErrorNorm>(
@@ -33,6 +35,11 @@ inline constexpr auto kWords<FailurePolicy> =
     make_words<FailurePolicy>({{FailurePolicy::record, "record", "note it and go on"},
                                {FailurePolicy::abort, "abort", "stop"}});
 
+template <>
+inline constexpr auto kWords<RefineLimit> = make_words<RefineLimit>(
+    {{RefineLimit::zero, "zero", "finer is smaller: h is the value"},
+     {RefineLimit::infinity, "infinity", "finer is larger: h is 1 / value"}});
+
 struct TimeWindow {
   double first = 0.0;  // s
   double last = 0.0;   // s
@@ -49,6 +56,12 @@ struct VaryInput {
   Parameter parameter;
   std::vector<Value> values;  // numbers in parameter.unit, or words
   Location at;
+};
+
+// What a [[refine]] says beyond its parameter and its values, which are a VaryInput.
+struct RefineInput {
+  RefineLimit limit = RefineLimit::zero;
+  std::optional<double> formal_order;
 };
 
 struct MatchInput {
@@ -76,6 +89,14 @@ struct ResponseInput {
 struct TraceInput {
   std::string signal;
   Location at;
+};
+
+// A time history that a refinement compares from level to level.
+struct SeriesInput {
+  std::string signal;
+  ErrorNorm norm = ErrorNorm::max;
+  std::optional<TimeWindow> window;
+  Location at;  // of signal
 };
 
 struct LoadCaseInput {
@@ -114,16 +135,30 @@ struct StudyInput {
   std::vector<Override> base_set;
   Design design = Design::grid;
   std::vector<VaryInput> vary;
+  std::vector<RefineInput> refine;  // by vary
   std::vector<TuneInput> tune;
   std::vector<MatchInput> match;
   std::vector<ResponseInput> response;
-  std::vector<TraceInput> trace;
+  std::vector<TraceInput> trace;  // those of series among them
+  std::vector<SeriesInput> series;
+  double wanted_error = 1e-3;  // of a refinement, relative
+  double rounding = 2e-12;     // likewise: less is rounding
   std::vector<LoadCaseInput> load_case;
   SearchOptions search;
   RunOptions run;
   Tree resolved;
   std::vector<Diagnostic> remarks;  // warnings and notes
 };
+
+// What results keep of their input: with all defaults, and with what --set replaced.
+struct ResolvedTexts {
+  std::string study;
+  std::string model;
+  std::string reference;  // its model; empty where that is the same
+};
+// The input of results again, without the files it was read from; `file` is the name in messages.
+std::optional<StudyInput> read_study(const ResolvedTexts& texts, const std::string& file,
+                                     Diagnostics& diagnostics);
 
 // `set` are --set overrides: those of the study's own keys (run.seed, search.scan, ...) go there,
 // all others to what they name (precedence.h).

@@ -1,6 +1,8 @@
 // The keys of the files that vary a model: common ones, and those of their kind.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "study/config/model_keys.h"
 #include "study/config/study_checks.h"
 
@@ -50,7 +52,8 @@ void add_signal(Fields<Record>& record, const char* meaning) {
              [](Record& to, Tree& value, const Reading&) { to.at = value.at; });
 }
 
-void add_parameter(Fields<Study>& entry) {
+template <class Record>
+void add_parameter(Fields<Record>& entry) {
   entry.read("parameter",
              {.type = text,
               .meaning = "path in the model, such as closure.S.sde.stiffness; * for a name: the "
@@ -58,7 +61,7 @@ void add_parameter(Fields<Study>& entry) {
               .required = true});
 }
 
-Fields<MatchInput> match_fields() {
+Fields<MatchInput> match_fields(FileKind kind) {
   Fields<MatchInput> match;
   add_signal(match, "channel, such as closure.S.force; every component counts");
   match.read("reference_signal",
@@ -72,10 +75,14 @@ Fields<MatchInput> match_fields() {
              read_reference_signal);
   match.add("norm", &MatchInput::norm, {.meaning = "error that counts"});
   match.add("scale", &MatchInput::scale, {.meaning = "what the error is divided by"});
-  match.add("tolerance", &MatchInput::tolerance,
-            {.meaning = "largest relative error that still matches",
-             .range = kPositive,
-             .required = true});
+  KeyRow tolerance{.meaning = "largest relative error that still matches",
+                   .range = kPositive,
+                   .required = kind != FileKind::converge};
+  if (!tolerance.required) {
+    tolerance.meaning = "wanted relative error; default: wanted_error";
+    tolerance.derive = [](const Tree&) { return std::optional<Tree>(); };
+  }
+  match.add("tolerance", &MatchInput::tolerance, std::move(tolerance));
   add_window(match);
   match.add("floor", &MatchInput::floor,
             {.meaning = "a component whose reference stays under this fraction of the vector's is "
@@ -96,9 +103,9 @@ Fields<ResponseInput> response_fields() {
   return response;
 }
 
-void add_outputs(Fields<Study>& study) {
+void add_outputs(Fields<Study>& study, FileKind kind) {
   study.tables("match", &Study::match, {.meaning = "signals compared with the reference"},
-               match_fields());
+               match_fields(kind));
   study.tables("response", &Study::response, {.meaning = "numbers kept of every run"},
                response_fields());
   Fields<Study> trace;
@@ -134,8 +141,9 @@ void add_run(Fields<Study>& study) {
               std::move(run));
 }
 
-Fields<Study> ladder_fields() {
-  Fields<Study> ladder;
+template <class Record>
+Fields<Record> ladder_fields() {
+  Fields<Record> ladder;
   ladder.read("from", {.type = scalar, .meaning = "first value", .required = true});
   ladder.read("ratio",
               {.meaning = "ratio of neighbours, not 1", .range = kPositive, .required = true});
@@ -147,8 +155,8 @@ Fields<Study> ladder_fields() {
 }
 
 // Their values are of the units of the model: study_reader.cpp reads them.
-void add_vary(Fields<Study>& study) {
-  Fields<Study> vary;
+template <class Record>
+void add_values(Fields<Record>& vary) {
   add_parameter(vary);
   const auto add_list = [&](const char* key, const char* meaning, std::vector<int> counts) {
     vary.read(key, {.type = scalars, .meaning = meaning, .required = true, .group = "values"});
@@ -160,7 +168,12 @@ void add_vary(Fields<Study>& study) {
   vary.table(
       "ladder",
       {.meaning = "from, from*ratio, from*ratio^2, ...", .required = true, .group = "values"},
-      ladder_fields());
+      ladder_fields<Record>());
+}
+
+void add_vary(Fields<Study>& study) {
+  Fields<Study> vary;
+  add_values(vary);
   study.tables("vary", {.meaning = "varied model values", .required = true}, std::move(vary));
   Fields<Study> design;
   design.add("type", &Study::design,
@@ -200,6 +213,50 @@ void add_tune(Fields<Study>& study) {
               std::move(search));
 }
 
+// Values that stand for fineness by their size; all others are the size of something that ends.
+std::optional<Tree> usual_limit(const Tree& refine) {
+  const Tree* parameter = refine.find("parameter");
+  if (parameter == nullptr || !parameter->is(Tree::Kind::text)) return std::nullopt;
+  const std::vector<std::string> parts = split_path(parameter->text);
+  const bool grows = std::ranges::any_of(parts, [](const std::string& part) {
+    return part == "stiffness" || part == "segments" || part == "young" || part == "shear";
+  });
+  const RefineLimit limit = grows ? RefineLimit::infinity : RefineLimit::zero;
+  return Tree::make_text(std::string(name_of(limit)), parameter->at);
+}
+
+void add_refine(Fields<Study>& study) {
+  Fields<RefineInput> refine;
+  add_values(refine);
+  refine.add("limit", &RefineInput::limit,
+             {.meaning = "where finer values lead; default: infinity of stiffness, segments, young "
+                         "and shear, else zero",
+              .derive = usual_limit});
+  refine.add("formal_order", &RefineInput::formal_order,
+             {.meaning = "order that the method should show; default: that of the integrator, 1 of "
+                         "stiffness, 2 of segments",
+              .range = kPositive});
+  study.tables("refine", &Study::refine,
+               {.meaning = "the ladder, or two: each is judged at every value of the other that "
+                           "matters",
+                .required = true},
+               std::move(refine));
+  Fields<SeriesInput> series;
+  add_signal(series,
+             "channel, vector or group; its time histories are compared with those of the "
+             "next level at the instants that all levels keep");
+  series.add("norm", &SeriesInput::norm, {.meaning = "of a difference"});
+  add_window(series);
+  study.tables("series", &Study::series, {.meaning = "time histories that are refined"},
+               std::move(series));
+  study.add("wanted_error", &Study::wanted_error,
+            {.meaning = "relative error for which the coarsest sufficient level is told",
+             .range = kPositive});
+  study.add("rounding", &Study::rounding,
+            {.meaning = "relative differences below it are rounding and show no order",
+             .range = kNotNegative});
+}
+
 }  // namespace
 
 std::vector<KeyRow> make_study_rows(FileKind kind) {
@@ -207,7 +264,8 @@ std::vector<KeyRow> make_study_rows(FileKind kind) {
   add_head(study, std::string(name_of(kind)));
   if (kind == FileKind::study) add_vary(study);
   if (kind == FileKind::tune) add_tune(study);
-  add_outputs(study);
+  if (kind == FileKind::converge) add_refine(study);
+  add_outputs(study, kind);
   add_run(study);
   return study.rows();
 }

@@ -5,6 +5,7 @@
 
 #include "study/config/fill.h"
 #include "study/config/precedence.h"
+#include "study/config/refine_checks.h"
 #include "study/config/study_cases.h"
 #include "study/config/study_checks.h"
 #include "study/config/study_input.h"
@@ -21,9 +22,10 @@ using Document = std::shared_ptr<const ModelDocument>;
 
 class StudyReader {
  public:
+  // `texts`: of the models, where their files are not to be read.
   StudyReader(Tree study, std::string file, std::span<const Override> model_set,
-              Diagnostics& diagnostics)
-      : study_(std::move(study)), model_set_(model_set), diagnostics_(diagnostics) {
+              const ResolvedTexts* texts, Diagnostics& diagnostics)
+      : study_(std::move(study)), model_set_(model_set), texts_(texts), diagnostics_(diagnostics) {
     input_.file = std::move(file);
   }
 
@@ -49,7 +51,11 @@ class StudyReader {
     const auto folder = std::filesystem::path(input_.file).parent_path();
     const std::string path = (folder / name->text).lexically_normal().string();
     Diagnostics found;
-    std::optional<ModelDocument> document = ModelDocument::load(path, found);
+    const bool is_reference = &owner != &study_;
+    std::optional<ModelDocument> document =
+        texts_ == nullptr
+            ? ModelDocument::load(path, found)
+            : ModelDocument::parse(is_reference ? texts_->reference : texts_->model, path, found);
     for (const Diagnostic& d : found.sorted()) {
       if (d.line > 0) {
         diagnostics_.add(d);
@@ -99,13 +105,17 @@ class StudyReader {
 
   void read_parameters() {
     const ModelDocument document = base_document();
-    const char* list = input_.kind == FileKind::study ? "vary" : "tune";
-    Tree* entries = study_.find(list);
+    Tree* entries = study_.find(list_of(input_.kind));
     if (entries != nullptr && entries->is(Kind::array)) {
       for (Tree& entry : entries->items) read_entry(document, entry);
       has_rows_ = have_equal_lengths();
       if (has_rows_) merge_equal_values(input_, written_, diagnostics_);
+      if (input_.kind == FileKind::converge) finish_refinement(input_, written_, diagnostics_);
     }
+  }
+
+  static const char* list_of(FileKind kind) {
+    return kind == FileKind::tune ? "tune" : kind == FileKind::converge ? "refine" : "vary";
   }
 
   void read_entry(const ModelDocument& document, Tree& entry) {
@@ -201,6 +211,7 @@ class StudyReader {
 
   Tree study_;
   std::span<const Override> model_set_;
+  const ResolvedTexts* texts_;
   Diagnostics& diagnostics_;
   StudyInput input_;
   std::vector<std::string> paths_;
@@ -214,12 +225,9 @@ bool is_study_path(const std::string& path) {
   return first == "name" || model_schema().find(first) == nullptr;
 }
 
-}  // namespace
-
-std::optional<StudyInput> read_study(const std::string& path, std::span<const Override> set,
-                                     Diagnostics& diagnostics) {
-  Diagnostics found;
-  std::optional<Tree> tree = read_toml_file(path, found);
+std::optional<StudyInput> read_tree(std::optional<Tree> tree, const std::string& path,
+                                    std::span<const Override> set, const ResolvedTexts* texts,
+                                    Diagnostics& found, Diagnostics& diagnostics) {
   const std::optional<FileKind> kind = tree ? kind_of(*tree, found) : std::nullopt;
   if (kind && *kind == FileKind::model) {
     found.add(tree->find("kind")->at, "a study or tune is expected here, got kind = 'model'",
@@ -239,12 +247,28 @@ std::optional<StudyInput> read_study(const std::string& path, std::span<const Ov
     }
   }
   validate(*tree, schema, found);
-  StudyReader reader(std::move(*tree), path, model_set, found);
+  StudyReader reader(std::move(*tree), path, model_set, texts, found);
   StudyInput input = reader.read(*kind);
   diagnostics.append(found);
   if (!found.empty()) return std::nullopt;
   input.remarks = found.sorted_remarks();
   return input;
+}
+
+}  // namespace
+
+std::optional<StudyInput> read_study(const std::string& path, std::span<const Override> set,
+                                     Diagnostics& diagnostics) {
+  Diagnostics found;
+  std::optional<Tree> tree = read_toml_file(path, found);
+  return read_tree(std::move(tree), path, set, nullptr, found, diagnostics);
+}
+
+std::optional<StudyInput> read_study(const ResolvedTexts& texts, const std::string& file,
+                                     Diagnostics& diagnostics) {
+  Diagnostics found;
+  std::optional<Tree> tree = parse_toml(texts.study, file, found);
+  return read_tree(std::move(tree), file, {}, &texts, found, diagnostics);
 }
 
 }  // namespace linkstudy

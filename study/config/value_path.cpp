@@ -141,4 +141,22 @@ PathRelation relation_of(const Tree& document, const KeyNode& schema, const std:
   return a && b ? relation_of(*a, *b) : PathRelation::apart;
 }
 
+const Tree* find_value(const Tree& document, const KeyNode& schema, const std::string& path) {
+  const std::optional<ValuePath> found = find_value_path(document, schema, path);
+  if (!found) return nullptr;
+  const Tree* value = &document;
+  for (const std::string& part : found->parts) {
+    if (value->is(Tree::Kind::array)) {
+      const std::optional<std::size_t> index = parse_index(part);
+      if (!index || *index >= value->items.size()) return nullptr;
+      value = &value->items[*index];
+      continue;
+    }
+    value = value->is(Tree::Kind::table) ? value->find(part) : nullptr;
+    if (value == nullptr) return nullptr;
+  }
+  const Tree* all = value->is(Tree::Kind::table) ? value->find("all") : nullptr;
+  return all != nullptr ? all : value;
+}
+
 }  // namespace linkstudy

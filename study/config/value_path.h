@@ -33,6 +33,10 @@ PathRelation relation_of(const ValuePath& first, const ValuePath& second);
 PathRelation relation_of(const Tree& document, const KeyNode& schema, const std::string& first,
                          const std::string& second);
 
+// The value at a path without *, of a validated document; { all = value } stands for its value.
+// Null where there is none.
+const Tree* find_value(const Tree& document, const KeyNode& schema, const std::string& path);
+
 // The unit of the value at `path`, which names one of the row; of an array, of its first entry.
 // `document` may be validated or not. Nothing when the neighbours do not tell.
 std::optional<std::string> unit_of_path(const Tree& document, const KeyNode& schema,

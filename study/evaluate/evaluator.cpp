@@ -130,9 +130,10 @@ Evaluator::Evaluator(StudyInput input, std::vector<Parameter> parameters, StudyS
     : input_(std::move(input)),
       parameters_(std::move(parameters)),
       load_cases_(load_cases_of(input_)),
-      layout_(layout_of(signals)),
-      responses_(list_responses(input_, signals)),
-      judged_(list_judged_errors(input_, signals)),
+      signals_(std::move(signals)),
+      layout_(layout_of(signals_)),
+      responses_(list_responses(input_, signals_)),
+      judged_(list_judged_errors(input_, signals_)),
       references_(load_cases_.size()) {}
 
 double Evaluator::worst(RunNumber number, const std::vector<double>& responses) const {
@@ -162,6 +163,12 @@ const ReferenceRecord& Evaluator::run_reference(std::size_t load_case) {
 
 void Evaluator::run_references() {
   for (std::size_t i = 0; i < reference_count(); ++i) run_reference(i);
+}
+
+const ReferenceRecord* Evaluator::known_reference(std::size_t load_case) const {
+  const std::lock_guard lock(mutex_);
+  const std::optional<ReferenceRecord>& record = references_.at(load_case);
+  return record ? &*record : nullptr;
 }
 
 void Evaluator::set_reference(std::size_t load_case, ReferenceRecord record) {

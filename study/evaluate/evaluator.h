@@ -32,6 +32,8 @@ class Evaluator {
   const StudyInput& input() const { return input_; }
   const std::vector<Parameter>& parameters() const { return parameters_; }
   const std::vector<Response>& responses() const { return responses_; }
+  // In the mechanism of the first point.
+  const StudySignals& signals() const { return signals_; }
   const std::vector<JudgedError>& judged_errors() const { return judged_; }
   // Largest (or, of step_limit, smallest) value of a run number over the load cases.
   double worst(RunNumber number, const std::vector<double>& responses) const;
@@ -43,6 +45,8 @@ class Evaluator {
   // Cause::cancelled after cancel().
   const ReferenceRecord& run_reference(std::size_t load_case);
   void run_references();
+  // Null where it has not been run yet.
+  const ReferenceRecord* known_reference(std::size_t load_case) const;
   // As another start or another rank ran it. Throws std::out_of_range where it is none of this
   // study's.
   void set_reference(std::size_t load_case, ReferenceRecord record);
@@ -83,6 +87,7 @@ class Evaluator {
   StudyInput input_;
   std::vector<Parameter> parameters_;
   std::vector<LoadCaseInput> load_cases_;
+  StudySignals signals_;
   ResponseLayout layout_;
   std::vector<Response> responses_;
   std::vector<JudgedError> judged_;

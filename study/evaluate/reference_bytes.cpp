@@ -33,7 +33,7 @@ void visit_members(auto& archive, Like<StepGrid> auto& grid) {
 }
 
 void visit_members(auto& archive, Like<ReferenceRecord> auto& record) {
-  archive(record.grid, record.match, record.traces, record.joints, record.poses);
+  archive(record.grid, record.match, record.traces, record.joints, record.poses, record.responses);
 }
 
 std::string encode_reference(const ReferenceRecord& record) {

@@ -57,10 +57,16 @@ std::vector<State<double>> to_states(const Series& series, const Mechanism& mech
   return states;
 }
 
-// Series: one per match, the histories, the poses.
-Observers make_observers(const StudySignals& signals, const std::vector<Channel>& all,
-                         const StepGrid& grid, double output_interval) {
+// Series: one per match, the histories, the poses. Reductions: of the responses, one by one.
+Observers make_observers(const StudyInput& input, const StudySignals& signals,
+                         const std::vector<Channel>& all, const StepGrid& grid,
+                         double output_interval) {
   Observers observers;
+  for (std::size_t i = 0; i < input.response.size(); ++i) {
+    for (ChannelReduction& one : make_reductions(input.response[i], signals.response[i], grid)) {
+      observers.reductions.push_back(std::move(one));
+    }
+  }
   for (const std::vector<Channel>& channels : signals.match) {
     observers.series.push_back({channels, {0, grid.count, 1}, {}});
   }
@@ -68,6 +74,23 @@ Observers make_observers(const StudySignals& signals, const std::vector<Channel>
   const long stride = std::max(1L, grid.count / kReferencePoses);
   observers.series.push_back({coordinate_channels(all), {0, grid.count, stride}, {}});
   return observers;
+}
+
+// Those whose window ends with the run or before.
+std::vector<Trace> reduce_responses(const StudyInput& input, const StudySignals& signals,
+                                    const std::vector<ChannelReduction>& reductions,
+                                    double end_time) {
+  std::vector<Trace> responses;
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < input.response.size(); ++i) {
+    const ResponseInput& response = input.response[i];
+    const bool is_whole = !response.window || response.window->last <= end_time * (1.0 + 1e-9);
+    for (const Channel& channel : signals.response[i]) {
+      const double value = reduce_channel(reductions[at++], response.reduce);
+      if (is_whole) responses.push_back({response_name(response, channel), channel.unit, {value}});
+    }
+  }
+  return responses;
 }
 
 }  // namespace
@@ -87,7 +110,8 @@ ReferenceRecord run_reference(const StudyInput& input, const LoadCaseInput& load
   ReferenceRecord record;
   record.warnings = preparation.warnings;
   record.grid = make_step_grid(model.options);
-  Observers observers = make_observers(signals, all, record.grid, model.options.output_interval);
+  Observers observers =
+      make_observers(input, signals, all, record.grid, model.options.output_interval);
   const SimulationOutcome outcome =
       simulate(mechanism, preparation.model.parameters, preparation.model.start, model.options,
                observers, limits, worse({}, preparation.spectrum, preparation.model.start.t));
@@ -98,6 +122,7 @@ ReferenceRecord run_reference(const StudyInput& input, const LoadCaseInput& load
   record.traces = to_traces(observers.series.back());
   observers.series.pop_back();
   record.match = std::move(observers.series);
+  record.responses = reduce_responses(input, signals, observers.reductions, model.options.end_time);
   return record;
 }
 
@@ -106,7 +131,10 @@ KnownLimit find_known_limit(const Preparation& preparation, const ReferenceRecor
   KnownLimit known{worse({}, preparation.spectrum, model.start.t)};
   if (reference == nullptr || reference->joints != model.mechanism.joint_names) return known;
   for (const State<double>& pose : reference->poses) {
-    if (pose.q.size() != model.start.q.size() || pose.v.size() != model.start.v.size()) break;
+    const bool fits = pose.q.size() == model.start.q.size() &&
+                      pose.v.size() == model.start.v.size() &&
+                      pose.z.size() == model.start.z.size();  // bristles of clearances
+    if (!fits) break;
     known.worst = worse(known.worst, compute_spectrum(model, pose), pose.t);
     known.along = true;
   }

@@ -15,6 +15,7 @@ struct ReferenceRecord {
   StepGrid grid{};
   std::vector<Series> match;          // by [[match]]; every step from 0 on
   std::vector<Trace> traces;          // time first, every output interval
+  std::vector<Trace> responses;       // what it has of [[response]], one value each
   std::vector<std::string> joints;    // that the coordinates of the poses belong to
   std::vector<State<double>> poses;   // equally spaced, without the start
   std::vector<std::string> warnings;  // of model and start; not stored with it

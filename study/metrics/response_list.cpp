@@ -87,7 +87,7 @@ class Lister {
     constexpr std::array kReductions = {"max", "min", "max_abs", "rms", "mean", "last"};
     const ResponseInput& response = input_.response[i];
     for (const Channel& channel : signals_.response[i]) {
-      add(response.name + to_name(component_of(channel.name, response.signal)), channel.unit,
+      add(response_name(response, channel), channel.unit,
           fmt::format("{} of {}", kReductions[static_cast<std::size_t>(response.reduce)],
                       channel.name));
     }
@@ -202,6 +202,10 @@ std::vector<StoredCase> split_responses(const std::vector<Response>& responses) 
 std::string group_of(const std::vector<std::string>& channels) {
   if (channels.size() == 1) return channels.front();
   return channels.front().substr(0, channels.front().rfind('.'));
+}
+
+std::string response_name(const ResponseInput& response, const Channel& channel) {
+  return response.name + to_name(component_of(channel.name, response.signal));
 }
 
 std::vector<Response> list_responses(const StudyInput& input, const StudySignals& signals) {

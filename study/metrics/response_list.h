@@ -25,6 +25,9 @@ enum class RunNumber {
 };
 inline constexpr std::size_t kRunNumbers = 10;
 
+// Of a channel of a [[response]], without the load case: "peak.x" as "peak_x".
+std::string response_name(const ResponseInput& response, const Channel& channel);
+
 std::vector<Response> list_responses(const StudyInput& input, const StudySignals& signals);
 
 // Names of [[response]] that are taken: by another response, by an error, by what is always kept,

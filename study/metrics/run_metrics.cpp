@@ -11,6 +11,8 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
+}  // namespace
+
 double reduce_channel(const ChannelReduction& r, Reduction how) {
   const double length = total_weight(r.sampling, r.ends);
   if (r.seen == 0) return kNan;
@@ -31,7 +33,19 @@ double reduce_channel(const ChannelReduction& r, Reduction how) {
   return r.last;
 }
 
-}  // namespace
+std::vector<ChannelReduction> make_reductions(const ResponseInput& response,
+                                              const std::vector<Channel>& channels,
+                                              const StepGrid& grid) {
+  std::vector<ChannelReduction> reductions;
+  for (const Channel& channel : channels) {
+    ChannelReduction& reduction = reductions.emplace_back();
+    reduction.channel = channel;
+    reduction.sampling = sample_window(grid, 1, response.window);
+    if (!response.window) reduction.sampling.begin = 0;
+    reduction.ends = find_window_ends(grid, reduction.sampling, response.window);
+  }
+  return reductions;
+}
 
 Channel time_channel() {
   return {"time", "s", Quantity::time, 0, 0};
@@ -96,15 +110,9 @@ void RunMetrics::add_gaps(const StudySignals& signals) {
 
 void RunMetrics::add_responses(const StudyInput& input, const StudySignals& signals) {
   for (std::size_t i = 0; i < input.response.size(); ++i) {
-    const ResponseInput& response = input.response[i];
-    for (const Channel& channel : signals.response[i]) {
-      ChannelReduction reduction;
-      reduction.channel = channel;
-      reduction.sampling = sample_window(grid_, 1, response.window);
-      if (!response.window) reduction.sampling.begin = 0;
-      reduction.ends = find_window_ends(grid_, reduction.sampling, response.window);
-      observers_.reductions.push_back(reduction);
-      reductions_.push_back(response.reduce);
+    for (ChannelReduction& one : make_reductions(input.response[i], signals.response[i], grid_)) {
+      observers_.reductions.push_back(std::move(one));
+      reductions_.push_back(input.response[i].reduce);
     }
   }
 }

@@ -53,6 +53,12 @@ class RunMetrics {
   bool has_traces_ = false;
 };
 
+// What a [[response]] watches of its channels, and the number it keeps of each.
+std::vector<ChannelReduction> make_reductions(const ResponseInput& response,
+                                              const std::vector<Channel>& channels,
+                                              const StepGrid& grid);
+double reduce_channel(const ChannelReduction& reduction, Reduction how);
+
 // Histories of `channels` at every output interval, time first.
 Series make_histories(const std::vector<Channel>& channels, const StepGrid& grid,
                       double output_interval);

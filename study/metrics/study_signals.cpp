@@ -93,6 +93,9 @@ StudySignals find_reference_signals(const StudyInput& input, const std::vector<C
                                         match.reference_at, diagnostics));
     add_once(signals.trace, signals.match.back());
   }
+  for (const ResponseInput& response : input.response) {
+    signals.response.push_back(find_channels(channels, response.signal));
+  }
   for (const TraceInput& trace : input.trace) {
     add_once(signals.trace, find_channel_group(channels, trace.signal));
   }

@@ -23,8 +23,8 @@ bool same_channels(const std::vector<Channel>& a, const std::vector<Channel>& b)
 StudySignals find_case_signals(const StudyInput& input, const std::vector<Channel>& channels,
                                Diagnostics& diagnostics);
 
-// reference_signal of every match; traces as far as the reference has them, the matched signals
-// included.
+// reference_signal of every match; responses and traces as far as the reference has them, the
+// matched signals included.
 StudySignals find_reference_signals(const StudyInput& input, const std::vector<Channel>& channels,
                                     Diagnostics& diagnostics);
 

@@ -31,8 +31,9 @@ Made part_of(AnswerKind kind, const StudyResults& results, std::string_view name
 }
 
 constexpr const char* kNotTuned = "only a tune that has its answer holds it";
+constexpr const char* kNotConverged = "only a converge that has all its levels holds it";
 
-constexpr std::array<ResultsTable, 9> kTables = {{
+constexpr std::array<ResultsTable, 11> kTables = {{
     {"summary", "what varies, the worst errors in percent, responses, status; by load case",
      [](const StudyResults& r) { return Made(summary_table(r)); }},
     {"evaluations", "every parameter and response of every evaluation, and why it ended",
@@ -48,6 +49,12 @@ constexpr std::array<ResultsTable, 9> kTables = {{
     {"certificate", "the claims about the answer and what they rest on",
      [](const StudyResults& r) { return part_of(AnswerKind::tuning, r, "certificate"); },
      kNotTuned},
+    {"convergence", "every level of every refined quantity: difference, order, GCI, error",
+     [](const StudyResults& r) { return part_of(AnswerKind::convergence, r, "convergence"); },
+     kNotConverged},
+    {"orders", "of every refined quantity: class, orders, limit, and what the wanted error needs",
+     [](const StudyResults& r) { return part_of(AnswerKind::convergence, r, "orders"); },
+     kNotConverged},
     {"runtime", "wall time, rank and host of every evaluation",
      [](const StudyResults& r) {
        return Made(titled(runtime_group(latest_by_id(r.evaluations)), r));

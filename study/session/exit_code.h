@@ -12,6 +12,7 @@ inline constexpr int kInternalError = 1;
 inline constexpr int kInputError = 2;
 inline constexpr int kTooManyFailed = 3;
 inline constexpr int kNotTuned = 4;
+inline constexpr int kNotConverged = 5;
 
 struct ExitStatus {
   int code;
@@ -23,7 +24,8 @@ inline constexpr std::array kExitStatuses = {
     ExitStatus{kInternalError, "internal error"},
     ExitStatus{kInputError, "usage or input error"},
     ExitStatus{kTooManyFailed, "too many cases failed, or a single run did"},
-    ExitStatus{kNotTuned, "tuning found nothing or was refuted"},
+    ExitStatus{kNotTuned, "tuning found nothing, or results were refuted"},
+    ExitStatus{kNotConverged, "a refined quantity shows no order of convergence"},
     ExitStatus{exit_resumable, "interrupted and resumable"}};
 
 }  // namespace linkstudy

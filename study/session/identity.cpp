@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <sys/utsname.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <thread>
 
@@ -14,9 +15,14 @@
 #include "study/schedule/batch_job.h"
 #include "study/session/version_text.h"
 #include "study/store/status.h"
+#include "study/store/store_error.h"
 
 namespace linkstudy {
 namespace {
+
+constexpr const char* kResolvedStudy = "resolved_study";
+constexpr const char* kResolvedModel = "resolved_model";
+constexpr const char* kResolvedReference = "resolved_reference";
 
 // Settings that change how a study is run and not what it computes.
 Tree without_run_settings(Tree resolved) {
@@ -79,7 +85,12 @@ StudyIdentity make_identity(const SessionOptions& options, const Evaluator& eval
                     {"model", text_of_file(input.model->file())},
                     {"resolved", resolved_text(options, input)},
                     {"build", version_text()},
-                    {"machine", machine_text(transport)}};
+                    {"machine", machine_text(transport)},
+                    {kResolvedStudy, write_toml(input.resolved)},
+                    {kResolvedModel, write_toml(input.model->tree())}};
+  if (input.reference && input.reference->model != input.model) {
+    identity.texts.push_back({kResolvedReference, write_toml(input.reference->model->tree())});
+  }
   const BatchJob job = find_batch_job(read_environment);
   identity.start = {"",
                     unix_time_s(),
@@ -94,6 +105,17 @@ StudyIdentity make_identity(const SessionOptions& options, const Evaluator& eval
                     job.id,
                     job.restart};
   return identity;
+}
+
+ResolvedTexts resolved_texts(const StudyResults& results) {
+  const auto text_of = [&](const char* name) {
+    const auto found = std::ranges::find(results.texts, name, &NamedText::name);
+    return found == results.texts.end() ? std::string() : found->text;
+  };
+  ResolvedTexts texts{text_of(kResolvedStudy), text_of(kResolvedModel),
+                      text_of(kResolvedReference)};
+  if (!texts.study.empty() && !texts.model.empty()) return texts;
+  throw StoreError("these results do not hold their models as they were run; run them again");
 }
 
 std::string directory_of(const SessionOptions& options, const StudyInput& input) {

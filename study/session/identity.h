@@ -14,6 +14,9 @@ namespace linkstudy {
 StudyIdentity make_identity(const SessionOptions& options, const Evaluator& evaluator,
                             std::uint64_t total, const Transport& transport);
 
+// What make_identity keeps of the resolved input. Throws StoreError where older results have none.
+ResolvedTexts resolved_texts(const StudyResults& results);
+
 // -o, or results/<name of the study> under the current directory.
 std::string directory_of(const SessionOptions& options, const StudyInput& input);
 

@@ -111,7 +111,7 @@ class Launch {
     Diagnostics diagnostics;
     evaluator_ = make_evaluator(input, diagnostics);
     throw_if_any(diagnostics);
-    if (input.kind == FileKind::study) total_ = points_of(input).size();
+    if (has_design(input.kind)) total_ = points_of(input).size();
     return kDone;
   }
 
@@ -179,7 +179,9 @@ class Launch {
     std::string answer(1, '1');
     if (is_first()) {
       const bool is_finished = total_ > 0 && record_->evaluations().size() >= total_;
-      answer[0] = is_finished ? '0' : '1';
+      // A refinement is judged against them when all levels are there; the journal has them.
+      const bool is_judged_later = evaluator_->input().kind == FileKind::converge;
+      answer[0] = is_finished && !is_judged_later ? '0' : '1';
     }
     transport_.broadcast(answer);
     return answer[0] == '1';

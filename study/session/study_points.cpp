@@ -2,6 +2,7 @@
 
 #include "study/config/input_error.h"
 #include "study/config/precedence.h"
+#include "study/converge/check_instants.h"
 #include "study/design/design.h"
 #include "study/tune/tuning_setup.h"
 
@@ -53,6 +54,9 @@ std::unique_ptr<Evaluator> make_evaluator(const StudyInput& input, Diagnostics& 
   std::unique_ptr<Evaluator> evaluator =
       Evaluator::make(input, parameters_of(input), first_point(input), diagnostics);
   if (evaluator && input.kind == FileKind::tune) check_tuning(*evaluator, diagnostics);
+  if (evaluator && input.kind == FileKind::converge) {
+    convergence::check_common_instants(*evaluator, points_of(input), diagnostics);
+  }
   if (evaluator) evaluator->set_timeout(input.run.timeout.value_or(0.0));
   return evaluator;
 }

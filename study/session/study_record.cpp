@@ -51,9 +51,8 @@ void require_same_rounding(const JournalContents& contents, const ProvenanceRow&
       is_choice ? "continue with LINKSTUDY_SIMD=baseline" : "continue on a machine that has it"));
 }
 
-TraceSet to_trace_set(const std::string& base, std::int64_t id, const CaseTraces& traces) {
-  const std::string suffix = traces.load_case.empty() ? "" : "_" + traces.load_case;
-  return {base + suffix, id, traces.traces};
+std::string with_case(const std::string& base, const std::string& load_case) {
+  return load_case.empty() ? base : base + "_" + load_case;
 }
 
 const std::string& text_named(const std::vector<NamedText>& texts, const std::string& name) {
@@ -61,6 +60,10 @@ const std::string& text_named(const std::vector<NamedText>& texts, const std::st
 }
 
 }  // namespace
+
+std::string trace_name(std::uint64_t evaluation, const std::string& load_case) {
+  return with_case(fmt::format("evaluation_{}", evaluation), load_case);
+}
 
 std::string slug_of(const std::string& name) {
   std::string slug;
@@ -137,9 +140,9 @@ void StudyRecord::add_traces(TraceSet set) {
 
 // What is stored apart first: an evaluation that is in the journal has it there.
 const Evaluation& StudyRecord::add(Evaluation evaluation) {
-  const std::string base = fmt::format("evaluation_{}", evaluation.point.id);
+  const std::uint64_t id = evaluation.point.id;
   for (const CaseTraces& set : std::exchange(evaluation.traces, {})) {
-    add_traces(to_trace_set(base, static_cast<std::int64_t>(evaluation.point.id), set));
+    add_traces({trace_name(id, set.load_case), static_cast<std::int64_t>(id), set.traces});
   }
   if (!evaluation.derived.empty()) journal_.append(derived_set(evaluation));
   journal_.append(evaluation);
@@ -148,7 +151,9 @@ const Evaluation& StudyRecord::add(Evaluation evaluation) {
 
 void StudyRecord::add_references(const std::vector<CaseTraces>& references) {
   if (!results_.references.empty()) return;
-  for (const CaseTraces& set : references) add_traces(to_trace_set("reference", -1, set));
+  for (const CaseTraces& set : references) {
+    add_traces({with_case("reference", set.load_case), -1, set.traces});
+  }
 }
 
 void StudyRecord::add_reference(StoredReference reference) {

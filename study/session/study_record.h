@@ -16,6 +16,9 @@ namespace linkstudy {
 // A name as part of a path: "Lowest stiffness of RSRRP" -> "lowest-stiffness-of-rsrrp".
 std::string slug_of(const std::string& name);
 
+// What the histories of an evaluation in a load case are called: "evaluation_12_fast".
+std::string trace_name(std::uint64_t evaluation, const std::string& load_case);
+
 struct StudyIdentity {
   StudyDescription description;
   std::string input_sha256;

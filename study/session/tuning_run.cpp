@@ -1,5 +1,7 @@
 #include "study/session/tuning_run.h"
 
+#include <utility>
+
 #include "study/session/study_points.h"
 
 namespace linkstudy {
@@ -8,24 +10,32 @@ using tuning::Answer;
 using tuning::Request;
 
 TuningRun::TuningRun(StudySession& session)
-    : session_(session), base_step_(base_step_of(session.evaluator().input())) {}
+    : TuningRun(session.evaluator(),
+                {[&session](const std::vector<Point>& points) { session.evaluate(points); },
+                 [&session](std::uint64_t id) -> const Evaluation& {
+                   return session.record().evaluations().at(id);
+                 }}) {}
+
+TuningRun::TuningRun(const Evaluator& evaluator, Source source)
+    : evaluator_(evaluator),
+      source_(std::move(source)),
+      base_step_(base_step_of(evaluator.input())) {}
 
 std::vector<Answer> TuningRun::evaluate(const std::vector<Request>& requests) {
   std::vector<Point> points;
   for (const Request& request : requests) {
     points.push_back({next_id_++, {request.x.front(), base_step_ * request.step_factor}});
   }
-  session_.evaluate(points);
+  source_.evaluate(points);
   std::vector<Answer> answers;
-  for (const Point& point : points) answers.push_back(answer_of(point.id));
+  for (const Point& point : points)
+    answers.push_back(to_answer(evaluator_, source_.find(point.id)));
   return answers;
 }
 
-Answer TuningRun::answer_of(std::uint64_t id) const {
-  const Evaluator& evaluator = session_.evaluator();
-  const Evaluation& evaluation = session_.record().evaluations().at(id);
+Answer to_answer(const Evaluator& evaluator, const Evaluation& evaluation) {
   Answer answer;
-  answer.id = id;
+  answer.id = evaluation.point.id;
   answer.status = evaluation.status;
   answer.message = evaluation.message;
   answer.derived = evaluation.derived;

@@ -3,6 +3,7 @@
 // answers.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "study/session/session.h"
@@ -12,17 +13,25 @@ namespace linkstudy {
 
 class TuningRun {
  public:
-  explicit TuningRun(StudySession& session);
+  // Where points become evaluations, and where those are then found.
+  struct Source {
+    std::function<void(const std::vector<Point>& points)> evaluate;
+    std::function<const Evaluation&(std::uint64_t id)> find;
+  };
 
-  // Throws as StudySession::evaluate does.
+  explicit TuningRun(StudySession& session);
+  TuningRun(const Evaluator& evaluator, Source source);
+
+  // Throws as the source does.
   std::vector<tuning::Answer> evaluate(const std::vector<tuning::Request>& requests);
 
  private:
-  tuning::Answer answer_of(std::uint64_t id) const;
-
-  StudySession& session_;
+  const Evaluator& evaluator_;
+  Source source_;
   double base_step_;
   std::uint64_t next_id_ = 0;
 };
+
+tuning::Answer to_answer(const Evaluator& evaluator, const Evaluation& evaluation);
 
 }  // namespace linkstudy

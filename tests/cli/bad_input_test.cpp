@@ -32,7 +32,8 @@ TEST_P(BadCommands, Exit_with_2_and_leave_nothing) {
 const BadCommand kBadCommands[] = {
     {"no_verb", "", "a verb is missing"},
     {"unknown_verb", "simulat model.toml", "did you mean 'simulate'?"},
-    {"planned_verb", "converge study.toml", "not supported in this version"},
+    {"planned_verb", "report results", "not supported in this version"},
+    {"file_of_another_kind", "converge study.toml", "this file has kind = \"study\""},
     {"option_first", "--json study study.toml", "a verb comes first"},
     {"no_input", "study", "usage: linkstudy study"},
     {"two_inputs", "simulate model.toml model.toml", "usage: linkstudy simulate"},

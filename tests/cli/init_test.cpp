@@ -41,7 +41,7 @@ std::string uncommented(const std::string& text) {
 }
 
 TEST_F(Init, Every_kind_is_right_as_written_and_with_all_that_is_commented_out) {
-  for (const std::string kind : {"model", "study", "tune"}) {
+  for (const std::string kind : {"model", "study", "tune", "converge"}) {
     const std::string file = kind + ".toml";
     const Ended ended = run("init " + kind + " -o " + file);
     ASSERT_EQ(ended.code, 0) << ended.err;
@@ -60,7 +60,7 @@ TEST_F(Init, Every_kind_is_right_as_written_and_with_all_that_is_commented_out) 
 TEST_F(Init, Explains_keys_in_the_words_of_the_reference) {
   const std::string text = run("init model").out;
   EXPECT_THAT(text, HasSubstr("# mass; kg, > 0\n"));
-  for (const std::string kind : {"model", "study", "tune"}) {
+  for (const std::string kind : {"model", "study", "tune", "converge"}) {
     std::istringstream stream(run("init " + kind).out);
     for (std::string line; std::getline(stream, line);) {
       EXPECT_LE(line.size(), 100u) << line;
@@ -139,9 +139,6 @@ TEST_F(Init, The_batch_script_runs_its_study_with_what_mpirun_finds) {
 }
 
 TEST_F(Init, What_it_cannot_do_is_a_usage_error) {
-  const Ended converge = run("init converge");
-  EXPECT_EQ(converge.code, 2);
-  EXPECT_THAT(converge.err, HasSubstr("not supported in this version; kinds: model, study, tune"));
   EXPECT_THAT(run("init modle").err, HasSubstr("did you mean 'model'"));
   EXPECT_EQ(run("init model --slurm -o model.toml").code, 2);
   EXPECT_EQ(run("init study --slurm").code, 2);

@@ -29,7 +29,7 @@ TEST_F(Manual, Page_1_has_every_verb_and_every_option_that_help_lists) {
   const std::string page = run("describe --man 1").out;
   const std::string usage = run("--help").out;
   for (const char* verb : {"init", "check", "describe", "simulate", "statics", "kinematics",
-                           "study", "tune", "status", "export"}) {
+                           "study", "tune", "converge", "verify", "status", "export"}) {
     EXPECT_THAT(usage, HasSubstr(std::string("  ") + verb + " "));
     EXPECT_THAT(page, HasSubstr(std::string(".SS linkstudy ") + verb + " "));
     const std::string help = run(std::string("help ") + verb).out;

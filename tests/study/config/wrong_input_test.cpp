@@ -164,10 +164,8 @@ const Wrong kWords[] = {
     {"closure_of_a_screw", "type = \"spherical\"", "type = @\"screw\"",
      "closure 'S': type must be one of spherical, revolute"},
     {"other_format", "format = 1", "format = @2", "format must be 1, got 2"},
-    {"other_kind", "kind = \"model\"", "kind = @\"modell\"",
-     "there is no kind 'modell' of files", "did you mean 'model'?"},
-    {"planned_kind", "kind = \"model\"", "kind = @\"converge\"",
-     "kind = 'converge' is not supported", "supported: model, study, tune"},
+    {"other_kind", "kind = \"model\"", "kind = @\"modell\"", "there is no kind 'modell' of files",
+     "did you mean 'model'?"},
     {"study_for_model", "kind = \"model\"", "kind = @\"study\"", "a model is expected here"},
 };
 

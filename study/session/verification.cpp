@@ -1,0 +1,338 @@
+#include "study/session/verification.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <set>
+
+#include "core/base/isa.h"
+#include "study/config/input_error.h"
+#include "study/converge/judge_convergence.h"
+#include "study/converge/write_convergence.h"
+#include "study/evaluate/form_packs.h"
+#include "study/metrics/response_list.h"
+#include "study/record/digest.h"
+#include "study/record/version.h"
+#include "study/session/identity.h"
+#include "study/session/study_points.h"
+#include "study/session/study_record.h"
+#include "study/session/tuning_run.h"
+#include "study/store/store_error.h"
+#include "study/tune/tune.h"
+#include "study/tune/tuning_setup.h"
+#include "study/tune/write_tuning.h"
+
+namespace linkstudy {
+namespace {
+
+// Relative, between instruction sets that round differently: integration multiplies roundings.
+constexpr double kOtherRounding = 1e-6;
+
+// The object of --json that the results keep, or null.
+nlohmann::json answer_of(const StudyResults& results) {
+  if (results.answers.empty()) return nullptr;
+  const Attribute* text = find_attribute(results.answers.front().tables, "answer");
+  if (text == nullptr) return nullptr;
+  return nlohmann::json::parse(std::get<std::string>(text->value), nullptr, false);
+}
+
+// Every list "evaluations" below a certificate.
+void collect_evaluations(const nlohmann::json& json, std::vector<std::uint64_t>& ids) {
+  if (json.is_object() && json.contains("evaluations") && json["evaluations"].is_array()) {
+    for (const auto& id : json["evaluations"]) {
+      if (id.is_number_unsigned()) ids.push_back(id.get<std::uint64_t>());
+    }
+  }
+  if (!json.is_structured()) return;
+  for (const auto& part : json) collect_evaluations(part, ids);
+}
+
+// Responses that studies are about: errors and [[response]].
+std::vector<std::size_t> compared_columns(const StudyDescription& description) {
+  std::vector<std::size_t> columns;
+  for (const StoredCase& one : split_responses(description.responses)) {
+    for (const StoredErrors& errors : one.matches) {
+      for (std::size_t c = 0; c < errors.channels.size(); ++c) columns.push_back(errors.max + c);
+    }
+    columns.insert(columns.end(), one.responses.begin(), one.responses.end());
+  }
+  return columns;
+}
+
+std::string shown_number(double value) {
+  return std::isnan(value) ? "nothing" : fmt::format("{:.17g}", value);
+}
+
+class Verifier {
+ public:
+  Verifier(const StudyResults& results, const VerifyOptions& options)
+      : results_(results), options_(options) {
+    for (const Evaluation& one : latest_by_id(results.evaluations)) {
+      evaluations_[one.point.id] = one;
+    }
+  }
+
+  Verification run() {
+    if (evaluations_.empty()) {
+      throw StoreError("there is nothing to verify: these results hold no evaluation");
+    }
+    result_.stored = evaluations_.size();
+    prepare();
+    compare_program();
+    const nlohmann::json answer = answer_of(results_);
+    std::vector<std::uint64_t> needed;
+    if (answer.is_object() && answer.contains("certificate")) {
+      collect_evaluations(answer["certificate"], needed);
+    }
+    result_.rerun = choose_evaluations(results_, needed, options_);
+    run_again();
+    if (answer.is_object()) judge_answer(answer);
+    return std::move(result_);
+  }
+
+ private:
+  void prepare() {
+    Diagnostics diagnostics;
+    const std::string file = "the input that these results hold";
+    const std::optional<StudyInput> input = read_study(resolved_texts(results_), file, diagnostics);
+    throw_if_any(diagnostics);
+    evaluator_ = make_evaluator(*input, diagnostics);
+    throw_if_any(diagnostics);
+    const std::vector<Response>& own = evaluator_->responses();
+    const bool fits = std::ranges::equal(own, results_.description.responses, {}, &Response::name,
+                                         &Response::name);
+    if (fits) return;
+    throw StoreError(
+        fmt::format("these results have other columns than this program gives their input (they "
+                    "are of version {} {}); verify them with that one",
+                    results_.program_version, results_.git_revision));
+  }
+
+  void compare_program() {
+    if (results_.git_revision != git_revision()) {
+      result_.warnings.push_back(
+          fmt::format("these results are of revision {}, this program is {}",
+                      results_.git_revision.empty() ? "unknown" : results_.git_revision,
+                      git_revision().empty() ? "of an unknown one" : git_revision()));
+    }
+    for (std::size_t i = 0; i < evaluator_->responses().size(); ++i) columns_.push_back(i);
+    if (results_.provenance.empty()) return;
+    const std::string baseline(name_of(InstructionSet::baseline));
+    const std::string& before = results_.provenance.back().simd;
+    const std::string now(name_of(simd_level().isa));
+    result_.to_the_bit = before.empty() || (before == baseline) == (now == baseline);
+    if (result_.to_the_bit) return;
+    columns_ = compared_columns(results_.description);
+    result_.warnings.push_back(
+        fmt::format("these results are of instruction set {}, this start has {}, which rounds "
+                    "differently: compared to {:g}",
+                    before, now, kOtherRounding));
+  }
+
+  void run_again() {
+    std::vector<Point> points;
+    for (const std::uint64_t id : result_.rerun) points.push_back(evaluations_.at(id).point);
+    for (const std::vector<Point>& pack :
+         form_packs(points, evaluator_->parameters(), simd_level().lanes, 1)) {
+      for (Evaluation& found : evaluator_->evaluate(pack)) {
+        compare(evaluations_.at(found.point.id), found);
+        evaluations_[found.point.id] = std::move(found);
+      }
+    }
+  }
+
+  void compare(const Evaluation& stored, const Evaluation& found) {
+    const std::uint64_t id = stored.point.id;
+    if (stored.status != found.status) {
+      result_.disagreements.push_back(
+          {id, "status", std::string(name_of(stored.status)), std::string(name_of(found.status))});
+      return;
+    }
+    for (const std::size_t i : columns_) {
+      const double a = i < stored.responses.size() ? stored.responses[i] : std::nan("");
+      const double b = found.responses[i];
+      if (agrees(a, b)) continue;
+      result_.disagreements.push_back(
+          {id, evaluator_->responses()[i].name, shown_number(a), shown_number(b)});
+    }
+  }
+
+  bool agrees(double a, double b) const {
+    if (std::isnan(a) || std::isnan(b)) return std::isnan(a) && std::isnan(b);
+    if (a == b) return true;
+    const double size = std::max(std::abs(a), std::abs(b));
+    return !result_.to_the_bit && std::abs(a - b) <= kOtherRounding * size;
+  }
+
+  // From what was run again, and the rest as stored.
+  void judge_answer(const nlohmann::json& stored) {
+    if (stored.contains("status")) result_.answer = stored["status"].get<std::string>();
+    std::optional<nlohmann::json> found;
+    const FileKind kind = evaluator_->input().kind;
+    if (kind == FileKind::tune) found = tune_again();
+    if (kind == FileKind::converge) found = converge_again();
+    if (!found || result_.refuted || !result_.to_the_bit || *found == stored) return;
+    result_.refuted = fmt::format("judged anew the answer is another: {}",
+                                  nlohmann::json::diff(stored, *found).front().dump());
+  }
+
+  // The search itself, its evaluations at hand.
+  std::optional<nlohmann::json> tune_again() {
+    const auto require_stored = [&](const std::vector<Point>& points) {
+      for (const Point& point : points) {
+        const auto known = evaluations_.find(point.id);
+        const bool is_it =
+            known != evaluations_.end() && known->second.point.values == point.values;
+        if (is_it) continue;
+        throw StoreError(
+            fmt::format("the search asks for another evaluation {} than is stored", point.id));
+      }
+    };
+    TuningRun run(*evaluator_, {require_stored, [&](std::uint64_t id) -> const Evaluation& {
+                                  return evaluations_.at(id);
+                                }});
+    try {
+      const tuning::TuningResult result =
+          tuning::tune(make_tuning_problem(*evaluator_), make_tuning_options(evaluator_->input()),
+                       [&](const auto& requests) { return run.evaluate(requests); });
+      check_claims(result);
+      return nlohmann::json::parse(tuning::write_json(result, ""));
+    } catch (const StoreError& error) {
+      result_.refuted = error.what();
+      return std::nullopt;
+    }
+  }
+
+  void check_claims(const tuning::TuningResult& result) {
+    if (!result.certificate) return;
+    const auto look_up = [&](std::uint64_t id) -> std::optional<tuning::Observation> {
+      if (id >= result.observations.size() || !evaluations_.contains(id)) return std::nullopt;
+      return tuning::Observation{result.observations[id].request,
+                                 to_answer(*evaluator_, evaluations_.at(id))};
+    };
+    const tuning::Certificate checked = tuning::check_certificate(*result.certificate, look_up);
+    if (checked.verdict == tuning::Verdict::refuted) result_.refuted = checked.reason;
+  }
+
+  // References of a refinement are run again, too.
+  nlohmann::json converge_again() {
+    evaluator_->run_references();
+    const auto find_histories = [&](std::uint64_t id,
+                                    const std::string& load_case) -> const std::vector<Trace>* {
+      for (const CaseTraces& set : evaluations_.at(id).traces) {
+        if (set.load_case == load_case) return &set.traces;
+      }
+      const std::string name = trace_name(id, load_case);
+      const auto found = std::ranges::find(results_.traces, name, &TraceSet::name);
+      return found == results_.traces.end() ? nullptr : &found->traces;
+    };
+    return nlohmann::json::parse(convergence::write_json(
+        convergence::judge_convergence(*evaluator_, evaluations_, find_histories), ""));
+  }
+
+  const StudyResults& results_;
+  const VerifyOptions& options_;
+  std::map<std::uint64_t, Evaluation> evaluations_;  // as stored, then as run again
+  std::unique_ptr<Evaluator> evaluator_;
+  // All; but residuals, drifts and gaps are made of rounding, and other sets have others.
+  std::vector<std::size_t> columns_;
+  Verification result_;
+};
+
+// In the order of their weight, each once.
+class Selection {
+ public:
+  explicit Selection(const std::vector<Evaluation>& evaluations) : evaluations_(evaluations) {
+    for (const Evaluation& one : evaluations) {
+      if (!tuning::is_transient(one.status)) comparable_.insert(one.point.id);
+    }
+  }
+
+  void add(std::uint64_t id) {
+    if (comparable_.contains(id) && chosen_.insert(id).second) order_.push_back(id);
+  }
+
+  void add_ends() {
+    if (comparable_.empty()) return;
+    add(*comparable_.begin());
+    add(*comparable_.rbegin());
+  }
+
+  void add_failures() {
+    std::set<Cause> causes;
+    for (const Evaluation& one : evaluations_) {
+      if (one.status != Cause::ok && causes.insert(one.status).second) add(one.point.id);
+    }
+  }
+
+  void add_extremes(std::size_t column) {
+    const Evaluation* least = nullptr;
+    const Evaluation* greatest = nullptr;
+    for (const Evaluation& one : evaluations_) {
+      const bool counts = one.status == Cause::ok && column < one.responses.size() &&
+                          !std::isnan(one.responses[column]);
+      if (!counts) continue;
+      const double value = one.responses[column];
+      if (least == nullptr || value < least->responses[column]) least = &one;
+      if (greatest == nullptr || value > greatest->responses[column]) greatest = &one;
+    }
+    if (least != nullptr) add(least->point.id);
+    if (greatest != nullptr) add(greatest->point.id);
+  }
+
+  void add_random(std::uint64_t seed, std::size_t count) {
+    std::vector<std::uint64_t> rest;
+    std::ranges::set_difference(comparable_, chosen_, std::back_inserter(rest));
+    std::mt19937_64 generator(seed);
+    while (order_.size() < count && !rest.empty()) {
+      const auto at = static_cast<std::ptrdiff_t>(generator() % rest.size());
+      add(rest[static_cast<std::size_t>(at)]);
+      rest.erase(rest.begin() + at);
+    }
+  }
+
+  void add_all() {
+    for (const std::uint64_t id : comparable_) add(id);
+  }
+
+  std::size_t size() const { return order_.size(); }
+
+  std::vector<std::uint64_t> take(std::size_t count) {
+    order_.resize(std::min(order_.size(), count));
+    std::ranges::sort(order_);
+    return std::move(order_);
+  }
+
+ private:
+  const std::vector<Evaluation>& evaluations_;
+  std::set<std::uint64_t> comparable_, chosen_;
+  std::vector<std::uint64_t> order_;
+};
+
+}  // namespace
+
+std::vector<std::uint64_t> choose_evaluations(const StudyResults& results,
+                                              const std::vector<std::uint64_t>& needed,
+                                              const VerifyOptions& options) {
+  const std::vector<Evaluation> evaluations = latest_by_id(results.evaluations);
+  Selection selection(evaluations);
+  for (const std::uint64_t id : needed) selection.add(id);
+  const std::size_t count = std::max(options.count, selection.size());
+  selection.add_ends();
+  selection.add_failures();
+  for (const std::size_t column : compared_columns(results.description)) {
+    selection.add_extremes(column);
+  }
+  selection.add_random(results.description.seed, count);
+  if (options.all) selection.add_all();
+  return selection.take(options.all ? evaluations.size() : count);
+}
+
+Verification verify_results(const StudyResults& results, const VerifyOptions& options) {
+  return Verifier(results, options).run();
+}
+
+}  // namespace linkstudy
