@@ -18,6 +18,22 @@ constexpr double kFarAway = 0.02;      // of the cube
 constexpr double kNoRise = 1e-3;       // of the rise at the end of an interval
 constexpr double kNoResidual = 1e-18;  // of the greatest S of a start: rounding
 
+// One of the two points of each column, at least: else its parameter would pass for one without
+// effect.
+bool have_all_columns(const std::vector<const FitSample*>& answers) {
+  for (std::size_t i = 0; i + 1 < answers.size(); i += 2) {
+    if (!answers[i]->is_ok() && !answers[i + 1]->is_ok()) return false;
+  }
+  return true;
+}
+
+Curvature unknown_curvature(Index n) {
+  Curvature unknown;
+  unknown.covariance = Matrix::Constant(n, n, std::numeric_limits<double>::infinity());
+  unknown.correlation = Matrix::Constant(n, n, kNan);
+  return unknown;
+}
+
 class Fit {
  public:
   Fit(const FitProblem& problem, const FitOptions& options, EvaluateBatch evaluate)
@@ -97,7 +113,9 @@ class Fit {
                         std::vector<bool>(count(), false)};
     const std::vector<const FitSample*> answers = log_.ask(list_difference_points(plan));
     curvature_ =
-        compute_curvature(problem(), point_, make_jacobian(plan, best_->residuals, answers));
+        have_all_columns(answers)
+            ? compute_curvature(problem(), point_, make_jacobian(plan, best_->residuals, answers))
+            : unknown_curvature(point_.size());
     result_.figures = compute_figures(problem(), best_->residuals, count(), log_.options());
   }
 

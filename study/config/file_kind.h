@@ -6,12 +6,14 @@
 
 namespace linkstudy {
 
-enum class FileKind { model, study, tune };
+enum class FileKind { model, study, tune, calibrate };
 
 template <>
 inline constexpr auto kWords<FileKind> =
     make_words<FileKind>({{FileKind::model, "model", "one mechanism"},
                           {FileKind::study, "study", "a parameter study of a model"},
-                          {FileKind::tune, "tune", "the lowest value that matches a reference"}});
+                          {FileKind::tune, "tune", "the lowest value that matches a reference"},
+                          {FileKind::calibrate, "calibrate",
+                           "the values with which the model fits measured data best"}});
 
 }  // namespace linkstudy

@@ -1,8 +1,10 @@
-// Files of kind "study" and "tune": which model, what is varied or tuned, what is compared and
-// kept. Every parameter path is checked against the model, every value converted to its unit.
-// Names of signals are not judged here; `at` is the place for whoever does.
+// Files of kind "study", "tune" and "calibrate": which model, what is varied, tuned or fitted, what
+// is compared and kept. Every parameter path is checked against the model, every value converted to
+// its unit. Names of signals are not judged here; `at` is the place for whoever does.
 #pragma once
 
+#include "study/config/fit_options.h"
+#include "study/config/measured_input.h"
 #include "study/config/model_document.h"
 #include "study/config/search_options.h"
 #include "study/record/design_kind.h"
@@ -32,12 +34,6 @@ template <>
 inline constexpr auto kWords<FailurePolicy> =
     make_words<FailurePolicy>({{FailurePolicy::record, "record", "note it and go on"},
                                {FailurePolicy::abort, "abort", "stop"}});
-
-struct TimeWindow {
-  double first = 0.0;  // s
-  double last = 0.0;   // s
-  Location at = {};
-};
 
 struct ReferenceInput {
   std::shared_ptr<const ModelDocument> model;  // the study's own model where no other is named
@@ -73,15 +69,13 @@ struct ResponseInput {
   Location name_at;  // of name
 };
 
-struct TraceInput {
-  std::string signal;
-  Location at;
-};
-
+// A load case; in a calibration an experiment, with what was measured in it.
 struct LoadCaseInput {
   std::string name;
   std::vector<Override> set;
   Location at;
+  std::optional<MeasuredInput> measured = {};
+  std::optional<ReferenceInput> reference = {};  // a run that stands for measurements
 };
 
 struct TuneInput {
@@ -115,11 +109,13 @@ struct StudyInput {
   Design design = Design::grid;
   std::vector<VaryInput> vary;
   std::vector<TuneInput> tune;
+  std::vector<CalibratedInput> calibrated;
   std::vector<MatchInput> match;
   std::vector<ResponseInput> response;
   std::vector<TraceInput> trace;
   std::vector<LoadCaseInput> load_case;
   SearchOptions search;
+  FitOptions fit;
   RunOptions run;
   Tree resolved;
   std::vector<Diagnostic> remarks;  // warnings and notes

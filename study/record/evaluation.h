@@ -91,6 +91,7 @@ struct Evaluation {
   // Stored apart, as trace sets. Of one value each: what the input says in other terms (damping in
   // N s/m where it gives a ratio), with the load case in front where there are several.
   std::vector<Trace> derived;
+  std::vector<double> residuals;  // of a calibration, against what was measured
   std::vector<CaseTraces> traces;
 };
 
@@ -107,7 +108,8 @@ struct WholeEvaluation {
 };
 
 void visit_members(auto& archive, Like<WholeEvaluation> auto& whole) {
-  archive(whole.evaluation, whole.evaluation.derived, whole.evaluation.traces);
+  archive(whole.evaluation, whole.evaluation.derived, whole.evaluation.residuals,
+          whole.evaluation.traces);
 }
 
 }  // namespace linkstudy

@@ -142,6 +142,7 @@ const Evaluation& StudyRecord::add(Evaluation evaluation) {
     add_traces(to_trace_set(base, static_cast<std::int64_t>(evaluation.point.id), set));
   }
   if (!evaluation.derived.empty()) journal_.append(derived_set(evaluation));
+  if (!evaluation.residuals.empty()) journal_.append(residuals_set(evaluation));
   journal_.append(evaluation);
   return evaluations_[evaluation.point.id] = std::move(evaluation);
 }

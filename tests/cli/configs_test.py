@@ -30,13 +30,15 @@ def shortened(path):
     options = ["-s", f"simulation.end_time={END}"]
     for position, _ in enumerate(tomllib.loads(path.read_text()).get("match", [])):
         options += ["-s", f"match.{position}.window=[{END / 5}, {END}]"]
+    for position, _ in enumerate(tomllib.loads(path.read_text()).get("experiment", [])):
+        options += ["-s", f"experiment.{position}.window=[{END / 5}, {END}]"]
     return options
 
 
 class Configs(unittest.TestCase):
     def test_there_are_mechanisms_and_studies(self):
         self.assertGreaterEqual(len(files_in("mechanisms")), 19)
-        self.assertGreaterEqual(len(files_in("studies")), 10)
+        self.assertGreaterEqual(len(files_in("studies")), 12)
 
     def test_every_file_is_right(self):
         done = run("check", *files_in("mechanisms"), *files_in("studies"))
@@ -97,10 +99,11 @@ class Configs(unittest.TestCase):
     def test_every_study_runs(self):
         for path in files_in("studies"):
             kind = tomllib.loads(path.read_text())["kind"]
-            search = ["-s", "search.scan=4", "-s", "search.max_evaluations=12"]
+            search = {"tune": ["-s", "search.scan=4", "-s", "search.max_evaluations=12"],
+                      "calibrate": ["-s", "fit.starts=1", "-s", "fit.max_evaluations=20"]}
             with self.subTest(file=path.name), tempfile.TemporaryDirectory() as folder:
                 done = run(kind, path, "-o", f"{folder}/results", *shortened(path),
-                           *(search if kind == "tune" else []))
+                           *search.get(kind, []))
                 # So short a run need not hold what is tuned for: 4, nothing feasible.
                 self.assertIn(done.returncode, (0, 4) if kind == "tune" else (0,), done.stderr)
                 self.assertTrue(Path(folder, "results", "results.h5").exists())
