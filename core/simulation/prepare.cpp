@@ -302,13 +302,13 @@ void warn_of_step(const SimulationOptions& options, Preparation& p) {
   const double h = make_step_grid(options).h;
   const double product = h * p.spectrum.omega_max;
   if (h > p.spectrum.step_limit) {
-    p.warnings.push_back("simulation.step = " + number(h) + " s is past the stability limit " +
-                         number(p.spectrum.step_limit) +
-                         " s of RK4 (omega_max = " + number(p.spectrum.omega_max) + " rad/s)");
+    p.step_warning = "simulation.step = " + number(h) + " s is past the stability limit " +
+                     number(p.spectrum.step_limit) +
+                     " s of RK4 (omega_max = " + number(p.spectrum.omega_max) + " rad/s)";
   } else if (product > kAccuracyLimit) {
-    p.warnings.push_back("h omega_max = " + number(product) +
-                         ": stable, but the stiffest motion is not resolved; a step below " +
-                         number(kAccuracyLimit / p.spectrum.omega_max) + " s is");
+    p.step_warning = "h omega_max = " + number(product) +
+                     ": stable, but the stiffest motion is not resolved; a step below " +
+                     number(kAccuracyLimit / p.spectrum.omega_max) + " s is";
   }
 }
 

@@ -21,7 +21,8 @@ struct Preparation {
   AssemblyReport assembly;
   std::optional<StaticsReport> statics;
   Spectrum spectrum;
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings;  // about model and start
+  std::string step_warning;           // about the step; empty: it is small enough
 };
 
 // h omega_max above which the accuracy of a step is doubtful long before it is unstable.

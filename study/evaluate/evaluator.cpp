@@ -66,10 +66,14 @@ void guard(Evaluation& result, const Step& step) {
   }
 }
 
+std::string named(const LoadCaseInput& load_case, const std::string& text) {
+  if (load_case.name.empty()) return text;
+  return fmt::format("{} '{}': {}", load_case.measured ? "experiment" : "load case", load_case.name,
+                     text);
+}
+
 void name_load_case(const LoadCaseInput& load_case, Evaluation& result) {
-  if (result.status == Cause::ok || load_case.name.empty()) return;
-  result.message = fmt::format("{} '{}': {}", load_case.measured ? "experiment" : "load case",
-                               load_case.name, result.message);
+  if (result.status != Cause::ok) result.message = named(load_case, result.message);
 }
 
 // Adds the time it lives.
@@ -360,6 +364,9 @@ std::unique_ptr<PreparedCase> Evaluator::prepare_case(std::size_t load_case, std
   if (preparation.cause != Cause::ok) {
     fail(attempt.result, preparation.cause, preparation.message);
     return nullptr;
+  }
+  for (const std::string& warning : preparation.warnings) {
+    attempt.result.warnings.push_back(named(load_cases_[load_case], warning));
   }
   const std::string& name = load_cases_[load_case].name;
   add_damping(input.linkage, preparation.model, name.empty() ? "" : name + "_",

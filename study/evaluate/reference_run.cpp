@@ -99,6 +99,7 @@ ReferenceRecord run_reference(const StudyInput& study, const LoadCaseInput& load
     fail(load_case, Cause::invalid_point, diagnostics.sorted().front().message);
   }
   ReferenceRecord record;
+  record.warnings = preparation.warnings;
   record.grid = make_step_grid(model.options);
   Observers observers = make_observers(signals, all, record.grid, model.options.output_interval);
   const SimulationOutcome outcome =

@@ -13,10 +13,11 @@ namespace linkstudy {
 
 struct ReferenceRecord {
   StepGrid grid{};
-  std::vector<Series> match;         // by [[match]]; every step from 0 on
-  std::vector<Trace> traces;         // time first, every output interval
-  std::vector<std::string> joints;   // that the coordinates of the poses belong to
-  std::vector<State<double>> poses;  // equally spaced, without the start
+  std::vector<Series> match;          // by [[match]]; every step from 0 on
+  std::vector<Trace> traces;          // time first, every output interval
+  std::vector<std::string> joints;    // that the coordinates of the poses belong to
+  std::vector<State<double>> poses;   // equally spaced, without the start
+  std::vector<std::string> warnings;  // of model and start; not stored with it
 };
 
 }  // namespace linkstudy

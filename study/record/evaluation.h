@@ -93,6 +93,8 @@ struct Evaluation {
   std::vector<Trace> derived;
   std::vector<double> residuals;  // of a calibration, against what was measured
   std::vector<CaseTraces> traces;
+  // Of model and start; said by rank 0 and not stored.
+  std::vector<std::string> warnings;
 };
 
 void visit_members(auto& archive, Like<Evaluation> auto& evaluation) {
@@ -109,7 +111,7 @@ struct WholeEvaluation {
 
 void visit_members(auto& archive, Like<WholeEvaluation> auto& whole) {
   archive(whole.evaluation, whole.evaluation.derived, whole.evaluation.residuals,
-          whole.evaluation.traces);
+          whole.evaluation.traces, whole.evaluation.warnings);
 }
 
 }  // namespace linkstudy

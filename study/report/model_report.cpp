@@ -167,6 +167,9 @@ std::string warning_text(const Preparation& preparation) {
   for (const std::string& warning : preparation.warnings) {
     text += fmt::format("linkstudy: warning: {}\n", warning);
   }
+  if (!preparation.step_warning.empty()) {
+    text += fmt::format("linkstudy: warning: {}\n", preparation.step_warning);
+  }
   return text;
 }
 

@@ -111,6 +111,12 @@ void Progress::tick(Time now) {
   if (due || (bar && !ever_written_)) write(now, false);
 }
 
+void Progress::clear() {
+  if (mode_ != ProgressMode::bar || !ever_written_) return;
+  stream_ << "\r\x1b[K";
+  stream_.flush();
+}
+
 void Progress::finish(Time now) {
   state_.running = 0;
   write(now, true);

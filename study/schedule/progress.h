@@ -59,6 +59,8 @@ class Progress {
   void update(std::size_t done, std::size_t failed, Time now);
   void set_running(std::size_t running) { state_.running = running; }
   void tick(Time now);
+  // Makes room for other lines: takes the bar away until it is drawn next.
+  void clear();
   // The last line, whatever the time.
   void finish(Time now);
 

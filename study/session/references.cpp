@@ -9,6 +9,7 @@
 #include "study/evaluate/reference_bytes.h"
 #include "study/schedule/stop_signals.h"
 #include "study/session/interrupted.h"
+#include "study/session/warnings.h"
 
 namespace linkstudy {
 namespace {
@@ -76,6 +77,9 @@ void run_references(Evaluator& evaluator, StudyRecord& record, const RunDeadline
     if (take_stored(evaluator, i, record, log)) continue;
     const auto begin = Clock::now();
     run_one(evaluator, i, deadline, log);
+    for (const std::string& text : evaluator.run_reference(i).warnings) {
+      say_warning(fmt::format("{}: {}", title_of(evaluator, i), text), log);
+    }
     keep(evaluator, i, encode_reference(evaluator.run_reference(i)), record, log);
     log.info("{} took {:.3g} s", title_of(evaluator, i),
              std::chrono::duration<double>(Clock::now() - begin).count());

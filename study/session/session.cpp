@@ -152,7 +152,16 @@ void StudySession::take_pack(const std::vector<Point>& pack, const TaskResult& t
   progress_.update(record_.evaluations().size(), failures_, Clock::now());
 }
 
+void StudySession::warn(const Evaluation& evaluation) {
+  for (const std::string& text : evaluation.warnings) {
+    if (!warnings_.add(text)) continue;
+    progress_.clear();
+    say_warning(fmt::format("evaluation {}: {}", evaluation.point.id, one_line(text)), log_);
+  }
+}
+
 void StudySession::take(Evaluation taken) {
+  warn(taken);
   const Evaluation& evaluation = record_.add(std::move(taken));
   log_.debug("evaluation {}: {} in {:.3g} s on rank {}", evaluation.point.id,
              name_of(evaluation.status), evaluation.wall_s, evaluation.rank);
@@ -204,6 +213,7 @@ bool StudySession::is_exhausted() const {
 }
 
 void StudySession::finish_progress() {
+  warnings_.log_counts(log_);
   if (total_ == 0) return;  // a tune ends below its budget: "25 %, 1 min left" would mislead
   progress_.finish(Clock::now());
 }

@@ -9,6 +9,7 @@
 #include "study/schedule/progress.h"
 #include "study/session/options.h"
 #include "study/session/study_record.h"
+#include "study/session/warnings.h"
 
 namespace linkstudy {
 
@@ -45,6 +46,7 @@ class StudySession {
   void take_pack(const std::vector<Point>& pack, const TaskResult& task);
   void end_run(const RunOutcome& outcome);
   void take(Evaluation taken);
+  void warn(const Evaluation& evaluation);
   void check_failures();
   std::size_t count_running() const;
 
@@ -60,6 +62,7 @@ class StudySession {
   std::size_t packs_taken_ = 0;
   std::size_t points_taken_ = 0;
   Progress progress_;
+  Warnings warnings_;
   std::string stop_reason_;
 };
 

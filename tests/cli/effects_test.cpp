@@ -9,6 +9,7 @@ namespace linkstudy::testing {
 namespace {
 
 using nlohmann::json;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
@@ -88,6 +89,30 @@ TEST_F(Effects, A_proposed_velocity_that_cannot_be_is_remarked) {
   const Ended ended = run("simulate model.toml -s joint.A.initial.velocity.0=1");
   EXPECT_THAT(run("simulate model.toml").err, Not(HasSubstr("initial.velocity")));
   EXPECT_THAT(ended.err, HasSubstr("initial velocity is 0.9494 instead of the given 1"));
+}
+
+std::size_t count_of(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
+    ++count;
+  }
+  return count;
+}
+
+// What comes up where the evaluations run reaches whoever watches, however many say it.
+TEST_F(Effects, What_a_start_leaves_of_a_velocity_is_said_once_by_a_study_and_by_a_tune) {
+  for (const char* before : {"", "mpirun -n 2 --oversubscribe --allow-run-as-root"}) {
+    for (const std::string verb : {"study", "tune"}) {
+      const Ended ended = run(
+          verb + " " + verb + ".toml -o out --fresh -s 'joint.P.initial.velocity=[5.0]'", before);
+      const std::string kept = "joint.P: its initial velocity is 0 instead of the given 5";
+      EXPECT_EQ(count_of(ended.err, "warning: reference run: " + kept), 1u) << ended.err;
+      EXPECT_THAT(ended.err, ContainsRegex("warning: evaluation [0-9]+: joint.P: its initial"));
+      EXPECT_EQ(count_of(ended.err, kept), 2u) << ended.err;
+      EXPECT_THAT(read_text(path("out/linkstudy.log")),
+                  HasSubstr(" evaluations like this: " + kept));
+    }
+  }
 }
 
 }  // namespace
