@@ -81,6 +81,8 @@ const std::vector<VerbRow>& verb_rows() {
        run_study, true},
       {"tune", "FILE", 1, 1, "finds the lowest value that matches the reference",
        run_options({"batch"}), run_tune, true},
+      {"calibrate", "FILE", 1, 1, "finds the values with which the model fits measured data best",
+       run_options(), run_calibrate, true},
       {"converge", "FILE", 1, 1, "refines, and tells orders of convergence and errors",
        run_options(), run_converge, true},
       {"verify",

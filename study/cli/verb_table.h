@@ -33,6 +33,7 @@ int run_statics(const CommandLine& line);
 int run_kinematics(const CommandLine& line);
 int run_study(const CommandLine& line);
 int run_tune(const CommandLine& line);
+int run_calibrate(const CommandLine& line);
 int run_converge(const CommandLine& line);
 int run_verify(const CommandLine& line);
 int run_status(const CommandLine& line);

@@ -83,6 +83,9 @@ class SourceCheck {
     for (const TuneInput& tune : input.tune) {
       varied_.push_back({tune.parameter.path, tune.at, "[[tune]]"});
     }
+    for (const CalibratedInput& one : input.calibrated) {
+      varied_.push_back({one.parameter.path, one.at, "[[parameter]]"});
+    }
   }
 
   void run(std::span<const Override> command_line) {
@@ -92,8 +95,11 @@ class SourceCheck {
     }
     std::vector<std::vector<Source>> cases;
     for (const LoadCaseInput& one : input_.load_case) {
-      cases.push_back(sources_of(one.set, fmt::format("load case '{}'", one.name)));
+      const char* what = one.measured ? "experiment" : "load case";
+      cases.push_back(sources_of(one.set, fmt::format("{} '{}'", what, one.name)));
       check_set(input_.model, cases.back());
+      if (!one.reference || !one.reference->model) continue;
+      check_set(one.reference->model, sources_of(one.reference->set, "reference.set"));
     }
     std::vector<Source> options;
     for (const Override& one : command_line) options.push_back({one.path, one.origin, "--set"});
@@ -153,8 +159,13 @@ std::vector<Override> case_overrides(const StudyInput& input, const LoadCaseInpu
   return join(join(input.base_set, load_case.set), point);
 }
 
+const ReferenceInput* reference_of(const StudyInput& input, const LoadCaseInput& load_case) {
+  if (load_case.reference) return &*load_case.reference;
+  return input.reference ? &*input.reference : nullptr;
+}
+
 std::vector<Override> reference_overrides(const StudyInput& input, const LoadCaseInput& load_case) {
-  return join(input.reference->set, load_case.set);
+  return join(reference_of(input, load_case)->set, load_case.set);
 }
 
 void apply_command_line(std::span<const Override> command_line, StudyInput& input,
@@ -172,6 +183,11 @@ void apply_command_line(std::span<const Override> command_line, StudyInput& inpu
     if (!is_known) diagnostics.append(of_model);
     if (has_reference) warn_of_likeness(input, override, diagnostics);
     replace_in_set(input.base_set, input.model, override);
+    for (LoadCaseInput& one : input.load_case) {
+      if (!one.reference) continue;
+      one.reference->model = input.model;
+      replace_in_set(one.reference->set, input.model, override);
+    }
     if (!has_reference) continue;
     if (!has_other) input.reference->model = input.model;
     replace_in_set(input.reference->set, input.reference->model, override);

@@ -15,6 +15,9 @@ std::vector<Override> case_overrides(const StudyInput& input, const LoadCaseInpu
                                      std::vector<Override> point);
 
 // What is set in the model of the reference.
+// The run that a load case is compared with: its own, else that of all; or null.
+const ReferenceInput* reference_of(const StudyInput& input, const LoadCaseInput& load_case);
+
 std::vector<Override> reference_overrides(const StudyInput& input, const LoadCaseInput& load_case);
 
 // Writes --set into the models and sets of the study. A path that no model has is reported; that a

@@ -21,12 +21,24 @@ std::size_t most_trials(const StudyInput& input) {
   return std::max(kLeastTrials, kMostTrials / std::max<std::size_t>(1, input.load_case.size()));
 }
 
+// The entries whose values are written: [[vary]], [[refine]], [[tune]] or [[parameter]].
+struct Entry {
+  const std::string& path;
+  const Location& at;
+};
+
+Entry entry_of(const StudyInput& input, std::size_t i) {
+  if (has_design(input.kind)) return {input.vary[i].parameter.path, input.vary[i].at};
+  if (input.kind == FileKind::tune) return {input.tune[i].parameter.path, input.tune[i].at};
+  return {input.calibrated[i].parameter.path, input.calibrated[i].at};
+}
+
 std::string path_of(const StudyInput& input, std::size_t i) {
-  return has_design(input.kind) ? input.vary[i].parameter.path : input.tune[i].parameter.path;
+  return entry_of(input, i).path;
 }
 
 const Location& place_of(const StudyInput& input, std::size_t i) {
-  return has_design(input.kind) ? input.vary[i].at : input.tune[i].at;
+  return entry_of(input, i).at;
 }
 
 // Two spellings of one number differ by the rounding of their units at most.
@@ -192,11 +204,12 @@ class CaseCheck {
   }
 
   void try_reference(const LoadCaseInput& load_case) {
-    if (!input_.reference || !input_.reference->model) return;
-    const auto model = build(*input_.reference->model, reference_overrides(input_, load_case));
+    const ReferenceInput* reference = reference_of(input_, load_case);
+    if (reference == nullptr || !reference->model) return;
+    const auto model = build(*reference->model, reference_overrides(input_, load_case));
     if (!model) return;
     for (Watched& one : options_) one.look(model->resolved, verb_);
-    std::vector<Watched> own = watch(input_.reference->set);
+    std::vector<Watched> own = watch(reference->set);
     for (Watched& one : own) {
       one.look(model->resolved, verb_);
       if (one.at.line > 0) sets_.push_back(one);

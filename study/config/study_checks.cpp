@@ -73,6 +73,7 @@ void read_failure_limit(RunOptions& run, Tree& value, const Reading& reading) {
 void check_study(const Tree& study, FileKind kind, Diagnostics& diagnostics) {
   require_unique(study, "response", diagnostics);
   require_unique(study, "load_case", diagnostics);
+  require_unique(study, "experiment", diagnostics);
   const Tree* match = study.find("match");
   if (match == nullptr && kind == FileKind::tune) {
     diagnostics.add(study.at, "a tune needs at least one [[match]]",

@@ -1,8 +1,10 @@
-// Files of all kinds but "model": which model, what is varied, tuned or refined, what is compared
-// and kept. Every parameter path is checked against the model, every value converted to its unit.
-// Names of signals are not judged here; `at` is the place for whoever does.
+// Files of all kinds but "model": which model, what is varied, tuned, fitted or refined, what is
+// compared and kept. Every parameter path is checked against the model, every value converted to its
+// unit. Names of signals are not judged here; `at` is the place for whoever does.
 #pragma once
 
+#include "study/config/fit_options.h"
+#include "study/config/measured_input.h"
 #include "study/config/model_document.h"
 #include "study/config/search_options.h"
 #include "study/record/design_kind.h"
@@ -39,12 +41,6 @@ template <>
 inline constexpr auto kWords<RefineLimit> = make_words<RefineLimit>(
     {{RefineLimit::zero, "zero", "finer is smaller: h is the value"},
      {RefineLimit::infinity, "infinity", "finer is larger: h is 1 / value"}});
-
-struct TimeWindow {
-  double first = 0.0;  // s
-  double last = 0.0;   // s
-  Location at = {};
-};
 
 struct ReferenceInput {
   std::shared_ptr<const ModelDocument> model;  // the study's own model where no other is named
@@ -86,11 +82,6 @@ struct ResponseInput {
   Location name_at;  // of name
 };
 
-struct TraceInput {
-  std::string signal;
-  Location at;
-};
-
 // A time history that a refinement compares from level to level.
 struct SeriesInput {
   std::string signal;
@@ -99,10 +90,13 @@ struct SeriesInput {
   Location at;  // of signal
 };
 
+// A load case; in a calibration an experiment, with what was measured in it.
 struct LoadCaseInput {
   std::string name;
   std::vector<Override> set;
   Location at;
+  std::optional<MeasuredInput> measured = {};
+  std::optional<ReferenceInput> reference = {};  // a run that stands for measurements
 };
 
 struct TuneInput {
@@ -137,6 +131,7 @@ struct StudyInput {
   std::vector<VaryInput> vary;
   std::vector<RefineInput> refine;  // by vary
   std::vector<TuneInput> tune;
+  std::vector<CalibratedInput> calibrated;
   std::vector<MatchInput> match;
   std::vector<ResponseInput> response;
   std::vector<TraceInput> trace;  // those of series among them
@@ -145,6 +140,7 @@ struct StudyInput {
   double rounding = 2e-12;     // likewise: less is rounding
   std::vector<LoadCaseInput> load_case;
   SearchOptions search;
+  FitOptions fit;
   RunOptions run;
   Tree resolved;
   std::vector<Diagnostic> remarks;  // warnings and notes

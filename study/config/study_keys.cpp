@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "study/config/calibrate_keys.h"
 #include "study/config/model_keys.h"
 #include "study/config/study_checks.h"
 
@@ -18,16 +19,16 @@ KeyRow set_row(const char* of) {
                      "everywhere"};
 }
 
-void add_head(Fields<Study>& study, const std::string& kind) {
-  add_file_fields(study, kind);
-  study.read("model",
-             {.type = text, .meaning = "model file, relative to this file", .required = true});
+void add_reference(Fields<Study>& study) {
   Fields<ReferenceInput> reference;
   reference.read("model", {.type = text, .meaning = "another model file; default: the same model"});
   reference.add("set", &ReferenceInput::set, set_row("the reference"));
   study.table("reference", &Study::reference, {.meaning = "the run that [[match]] compares with"},
               std::move(reference),
               [](Study& to, Tree& table, const Reading&) { to.reference->at = table.at; });
+}
+
+void add_base(Fields<Study>& study) {
   Fields<Study> base;
   base.add("set", &Study::base_set, set_row("every case"));
   study.table("base", {.meaning = "the run that is varied", .standard = "{}"}, std::move(base));
@@ -103,11 +104,17 @@ Fields<ResponseInput> response_fields() {
   return response;
 }
 
-void add_outputs(Fields<Study>& study, FileKind kind) {
+void add_matches(Fields<Study>& study, FileKind kind) {
   study.tables("match", &Study::match, {.meaning = "signals compared with the reference"},
                match_fields(kind));
+}
+
+void add_responses(Fields<Study>& study) {
   study.tables("response", &Study::response, {.meaning = "numbers kept of every run"},
                response_fields());
+}
+
+void add_traces_and_cases(Fields<Study>& study) {
   Fields<Study> trace;
   trace.read("signals",
              {.type = texts,
@@ -261,11 +268,19 @@ void add_refine(Fields<Study>& study) {
 
 std::vector<KeyRow> make_study_rows(FileKind kind) {
   Fields<Study> study;
-  add_head(study, std::string(name_of(kind)));
+  add_file_fields(study, std::string(name_of(kind)));
+  study.read("model",
+             {.type = text, .meaning = "model file, relative to this file", .required = true});
+  const bool is_calibration = kind == FileKind::calibrate;
+  if (!is_calibration) add_reference(study);
+  add_base(study);
   if (kind == FileKind::study) add_vary(study);
   if (kind == FileKind::tune) add_tune(study);
   if (kind == FileKind::converge) add_refine(study);
-  add_outputs(study, kind);
+  if (is_calibration) study.append(calibration_fields());
+  if (!is_calibration) add_matches(study, kind);
+  add_responses(study);
+  if (!is_calibration) add_traces_and_cases(study);
   add_run(study);
   return study.rows();
 }

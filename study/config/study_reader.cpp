@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "study/config/calibrate_reader.h"
 #include "study/config/fill.h"
+#include "study/config/named_parameter.h"
 #include "study/config/precedence.h"
 #include "study/config/refine_checks.h"
 #include "study/config/study_cases.h"
@@ -69,6 +71,9 @@ class StudyReader {
   // The reference is the same model where it names no other.
   void load_models() {
     input_.model = load_model(study_);
+    for (LoadCaseInput& one : input_.load_case) {
+      if (one.reference) one.reference->model = input_.model;
+    }
     if (!input_.reference) return;
     const Tree& tree = *study_.find("reference");
     const bool has_own = tree.find("model") != nullptr;
@@ -78,13 +83,17 @@ class StudyReader {
   void write_command_line() {
     if (model_set_.empty()) return;
     apply_command_line(model_set_, input_, diagnostics_);
-    write_set("base", input_.base_set);
-    if (input_.reference) write_set("reference", input_.reference->set);
+    write_set(study_.find("base"), input_.base_set);
+    if (input_.reference) write_set(study_.find("reference"), input_.reference->set);
+    Tree* experiments = study_.find("experiment");
+    for (std::size_t i = 0; i < input_.load_case.size() && experiments != nullptr; ++i) {
+      if (!input_.load_case[i].reference) continue;
+      write_set(experiments->items[i].find("reference"), input_.load_case[i].reference->set);
+    }
   }
 
   // What --set replaced in a set of the file, so that resolved.toml says what was run.
-  void write_set(const char* owner, const std::vector<Override>& set) {
-    Tree* tree = study_.find(owner);
+  static void write_set(Tree* tree, const std::vector<Override>& set) {
     Tree* table = tree != nullptr && tree->is(Kind::table) ? tree->find("set") : nullptr;
     const auto is_option = [](const Override& one) { return one.origin.line == 0; };
     if (table == nullptr || std::ranges::none_of(set, is_option)) return;
@@ -105,6 +114,11 @@ class StudyReader {
 
   void read_parameters() {
     const ModelDocument document = base_document();
+    if (input_.kind == FileKind::calibrate) {
+      written_ = read_calibrated(document, study_, input_, diagnostics_);
+      read_experiments(input_, diagnostics_);
+      return;
+    }
     Tree* entries = study_.find(list_of(input_.kind));
     if (entries != nullptr && entries->is(Kind::array)) {
       for (Tree& entry : entries->items) read_entry(document, entry);
@@ -121,23 +135,9 @@ class StudyReader {
   void read_entry(const ModelDocument& document, Tree& entry) {
     const Tree* path = entry.find("parameter");
     if (!entry.is(Kind::table) || path == nullptr || !path->is(Kind::text)) return;
-    const std::optional<Parameter> parameter = parameter_for(document, path->text);
-    const KeyRow* row = find_row(document.tree(), model_schema(), path->text);
-    if (row != nullptr && !parameter && path->text.find('*') != std::string::npos) {
-      diagnostics_.add(path->at,
-                       fmt::format("parameter '{}' names values of several units, or none that "
-                                   "one number can have",
-                                   path->text),
-                       "give each its own entry");
-      return;
-    }
-    if (!parameter || row == nullptr) {
-      diagnostics_.add(
-          path->at,
-          fmt::format("parameter names no value of {}, got '{}'", document.file(), path->text),
-          nearest_paths(document.tree(), model_schema(), path->text));
-      return;
-    }
+    const auto named = find_named_parameter(document, *path, diagnostics_);
+    if (!named) return;
+    const auto& [parameter, row] = *named;
     for (const std::string& known : paths_) {
       if (known != path->text) continue;
       diagnostics_.add(path->at, fmt::format("parameter '{}' is listed twice", known),
@@ -145,11 +145,11 @@ class StudyReader {
       return;
     }
     paths_.push_back(path->text);
-    if (input_.kind == FileKind::tune) return read_tune(entry, *parameter, *row);
+    if (input_.kind == FileKind::tune) return read_tune(entry, *named);
     std::vector<Tree> values =
-        read_value_list(entry, *row, parameter->unit, parameter->path, diagnostics_);
+        read_value_list(entry, *row, parameter.unit, parameter.path, diagnostics_);
     if (values.empty()) return;
-    VaryInput vary{*parameter, {}, path->at};
+    VaryInput vary{parameter, {}, path->at};
     for (const Tree& value : values) vary.values.push_back(to_value(value));
     input_.vary.push_back(std::move(vary));
     written_.push_back(std::move(values));
@@ -161,35 +161,14 @@ class StudyReader {
     return value.as_number();
   }
 
-  void read_tune(Tree& entry, const Parameter& parameter, const KeyRow& row) {
+  void read_tune(Tree& entry, const NamedParameter& named) {
     Tree* range = entry.find("range");
     if (range == nullptr || !range->is(Kind::table)) return;
-    if (!is_numeric_row(row) || row.type == KeyType::integer) {
-      diagnostics_.add(entry.find("parameter")->at,
-                       fmt::format("'{}' is no real number and cannot be tuned", parameter.path),
-                       "vary it in a study instead");
-      return;
-    }
-    Tree* log = range->find("log");
-    Tree* limits = log != nullptr ? log : range->find("lin");
-    if (limits == nullptr || !limits->is(Kind::array)) return;
-    bool is_right = true;
-    for (Tree& limit : limits->items) {
-      is_right =
-          validate_value(limit, row, parameter.unit, parameter.path, diagnostics_) && is_right;
-    }
-    if (!is_right) return;
-    const double low = limits->items[0].as_number();
-    const double high = limits->items[1].as_number();
-    if (!(low < high) || (log != nullptr && !(low > 0.0))) {
-      diagnostics_.add(limits->at,
-                       fmt::format("range must rise{}, got {}",
-                                   log != nullptr ? " from a positive number" : "", shown(*limits)),
-                       "range = { log = [lowest, highest] }");
-      return;
-    }
-    input_.tune.push_back({parameter, log != nullptr, low, high, entry.find("parameter")->at});
-    written_.push_back(limits->items);
+    const Location& at = entry.find("parameter")->at;
+    const auto found = read_named_range(*range, named, at, "tuned", diagnostics_);
+    if (!found) return;
+    input_.tune.push_back({named.parameter, found->is_logarithmic, found->low, found->high, at});
+    written_.push_back(found->limits);
   }
 
   bool have_equal_lengths() {

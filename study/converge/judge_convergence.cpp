@@ -63,7 +63,7 @@ class Judging {
   }
 
   double reference_of(std::size_t load_case, const std::string& response) const {
-    if (load_case >= evaluator_.reference_count()) return kUnknown;
+    if (!evaluator_.has_reference(load_case)) return kUnknown;
     const ReferenceRecord* record = evaluator_.known_reference(load_case);
     if (record == nullptr) return kUnknown;
     const auto found = std::ranges::find(record->responses, response, &Trace::name);
@@ -254,7 +254,7 @@ class Judging {
 
   std::optional<History> reference_history(std::size_t load_case,
                                            const std::string& channel) const {
-    if (load_case >= evaluator_.reference_count()) return std::nullopt;
+    if (!evaluator_.has_reference(load_case)) return std::nullopt;
     const ReferenceRecord* record = evaluator_.known_reference(load_case);
     if (record == nullptr) return std::nullopt;
     const History history = history_of(&record->traces, channel);

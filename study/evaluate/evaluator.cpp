@@ -18,6 +18,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr std::string_view kOffsetPrefix = "experiment.";
 constexpr std::uint32_t kAttempts = 3;  // an exception may be the machine's and not the point's
 
 // A model that is there, or the first thing that is wrong with it.
@@ -28,10 +29,20 @@ ModelInput require_model(const ModelDocument& document, const std::vector<Overri
   throw InvalidPoint(diagnostics.sorted().front().message);
 }
 
-StudySignals require_signals(const StudyInput& input, const Mechanism& mechanism) {
+StudySignals require_signals(const StudyInput& input, const Mechanism& mechanism,
+                             const MeasuredSet* measured) {
   Diagnostics diagnostics;
-  StudySignals signals = find_case_signals(input, list_channels(mechanism), diagnostics);
+  const std::vector<Channel> channels = list_channels(mechanism);
+  StudySignals signals = find_case_signals(input, channels, diagnostics);
   if (!diagnostics.empty()) throw InvalidPoint(diagnostics.sorted().front().message);
+  if (measured == nullptr) return signals;
+  for (const MeasuredSignal& one : measured->signals) {
+    const auto found = std::ranges::find(channels, one.channel, &Channel::name);
+    if (found == channels.end()) {
+      throw InvalidPoint(fmt::format("the model has no channel '{}'", one.channel));
+    }
+    signals.measured.push_back(*found);
+  }
   return signals;
 }
 
@@ -56,7 +67,9 @@ void guard(Evaluation& result, const Step& step) {
 }
 
 std::string named(const LoadCaseInput& load_case, const std::string& text) {
-  return load_case.name.empty() ? text : fmt::format("load case '{}': {}", load_case.name, text);
+  if (load_case.name.empty()) return text;
+  return fmt::format("{} '{}': {}", load_case.measured ? "experiment" : "load case", load_case.name,
+                     text);
 }
 
 void name_load_case(const LoadCaseInput& load_case, Evaluation& result) {
@@ -104,26 +117,76 @@ std::vector<Override> to_overrides(const std::vector<Parameter>& parameters,
                                    const std::vector<Value>& point) {
   std::vector<Override> set;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
+    if (parameters[i].path.starts_with(kOffsetPrefix)) continue;
     set.push_back(make_override(parameters[i].path, point.at(i)));
   }
   return set;
 }
 
+// Sets of all experiments with a file, in the order of the load cases; null for others.
+std::vector<std::shared_ptr<const MeasuredSet>> make_file_sets(const StudyInput& input,
+                                                               const std::vector<Override>& first,
+                                                               Diagnostics& diagnostics) {
+  std::vector<std::shared_ptr<const MeasuredSet>> sets;
+  for (const LoadCaseInput& one : load_cases_of(input)) {
+    sets.emplace_back();
+    if (!one.measured || !one.measured->data) continue;
+    const auto model = input.model->with(case_overrides(input, one, first), diagnostics);
+    if (!model) continue;
+    const std::vector<Channel> channels = list_channels(compile(model->linkage).mechanism);
+    auto set = std::make_shared<MeasuredSet>(
+        make_measured_set(*one.measured, *one.measured->data, channels, diagnostics));
+    check_instants(*one.measured, *set, model->options.end_time, diagnostics);
+    sets.back() = std::move(set);
+  }
+  return sets;
+}
+
+// Signals of a reference run that stands for measurements, and whether both runs reach them.
+void check_reference_data(const StudyInput& input, const LoadCaseInput& one,
+                          const std::vector<Override>& first, Diagnostics& diagnostics) {
+  const auto own = input.model->with(case_overrides(input, one, first), diagnostics);
+  const auto other = one.reference->model->with(reference_overrides(input, one), diagnostics);
+  if (!own || !other) return;
+  const std::vector<Channel> channels = list_channels(compile(other->linkage).mechanism);
+  find_reference_signals(reference_view(input, one), channels, diagnostics);
+  const std::optional<TimeWindow>& window = one.measured->window;
+  const double last = window ? window->last : other->options.end_time;
+  const double reached = std::min(own->options.end_time, other->options.end_time);
+  if (last <= reached * (1.0 + 1e-9)) return;
+  diagnostics.add(window ? window->at : one.reference->at,
+                  fmt::format("experiment '{}' is compared up to {:.9g} s, and one of its runs "
+                              "ends at {:.9g} s",
+                              one.name, last, reached),
+                  "give a window, or both runs the same simulation.end_time");
+}
+
 }  // namespace
+
+std::string measured_offset_path(const std::string& experiment) {
+  return fmt::format("{}{}.time_offset", kOffsetPrefix, experiment);
+}
 
 std::unique_ptr<Evaluator> Evaluator::make(StudyInput input, std::vector<Parameter> parameters,
                                            const std::vector<Value>& first,
                                            Diagnostics& diagnostics) {
   Diagnostics found;
-  auto signals = check_study_signals(input, to_overrides(parameters, first), found);
+  const std::vector<Override> point = to_overrides(parameters, first);
+  auto signals = check_study_signals(input, point, found);
   if (signals) {
     check_response_names(input, *signals, parameters, found);
     check_times(input, found);
   }
+  auto measured = make_file_sets(input, point, found);
+  for (const LoadCaseInput& one : input.load_case) {
+    if (one.measured && one.reference) check_reference_data(input, one, point, found);
+  }
   diagnostics.append(found);
   if (!signals || !found.empty()) return nullptr;
-  return std::unique_ptr<Evaluator>(
+  std::unique_ptr<Evaluator> evaluator(
       new Evaluator(std::move(input), std::move(parameters), std::move(*signals)));
+  evaluator->measured_ = std::move(measured);
+  return evaluator;
 }
 
 Evaluator::Evaluator(StudyInput input, std::vector<Parameter> parameters, StudySignals signals)
@@ -131,7 +194,7 @@ Evaluator::Evaluator(StudyInput input, std::vector<Parameter> parameters, StudyS
       parameters_(std::move(parameters)),
       load_cases_(load_cases_of(input_)),
       signals_(std::move(signals)),
-      layout_(layout_of(signals_)),
+      layout_(layout_of(input_, signals_)),
       responses_(list_responses(input_, signals_)),
       judged_(list_judged_errors(input_, signals_)),
       references_(load_cases_.size()) {}
@@ -148,8 +211,43 @@ double Evaluator::worst(RunNumber number, const std::vector<double>& responses) 
   return worst;
 }
 
+bool Evaluator::has_reference(std::size_t i) const {
+  return reference_of(input_, load_cases_.at(i)) != nullptr;
+}
+
 const ReferenceRecord* Evaluator::reference(std::size_t load_case) {
-  return input_.reference ? &run_reference(load_case) : nullptr;
+  return has_reference(load_case) ? &run_reference(load_case) : nullptr;
+}
+
+std::shared_ptr<const MeasuredSet> Evaluator::measured_set(std::size_t load_case) {
+  const LoadCaseInput& experiment = load_cases_.at(load_case);
+  const ReferenceRecord* record = reference(load_case);
+  const std::lock_guard lock(mutex_);
+  std::shared_ptr<const MeasuredSet>& set = measured_[load_case];
+  if (set || !experiment.measured || record == nullptr) return set;
+  std::vector<Channel> channels;
+  for (const Series& series : record->match) {
+    channels.insert(channels.end(), series.channels.begin(), series.channels.end());
+  }
+  Diagnostics found;
+  set = std::make_shared<const MeasuredSet>(
+      make_measured_set(*experiment.measured,
+                        to_measured_data(*experiment.measured, record->traces), channels, found));
+  if (!found.empty()) throw InvalidPoint(found.sorted().front().message);
+  return set;
+}
+
+MeasuredRun Evaluator::measured_run(std::size_t load_case, const Point& point) {
+  MeasuredRun run{measured_set(load_case)};
+  if (!run.set) return run;
+  run.offset = run.set->offset;
+  const std::string path = measured_offset_path(load_cases_[load_case].name);
+  const auto found = std::ranges::find(parameters_, path, &Parameter::path);
+  if (found == parameters_.end()) return run;
+  run.varies = true;
+  run.offset =
+      std::get<double>(point.values.at(static_cast<std::size_t>(found - parameters_.begin())));
+  return run;
 }
 
 const ReferenceRecord& Evaluator::run_reference(std::size_t load_case) {
@@ -162,7 +260,7 @@ const ReferenceRecord& Evaluator::run_reference(std::size_t load_case) {
 }
 
 void Evaluator::run_references() {
-  for (std::size_t i = 0; i < reference_count(); ++i) run_reference(i);
+  for (std::size_t i = 0; i < load_case_count(); ++i) reference(i);
 }
 
 const ReferenceRecord* Evaluator::known_reference(std::size_t load_case) const {
@@ -172,7 +270,9 @@ const ReferenceRecord* Evaluator::known_reference(std::size_t load_case) const {
 }
 
 void Evaluator::set_reference(std::size_t load_case, ReferenceRecord record) {
-  const bool fits = record.match.size() == input_.match.size() &&
+  const std::optional<MeasuredInput>& measured = load_cases_.at(load_case).measured;
+  const std::size_t signals = measured ? measured->signals.size() : input_.match.size();
+  const bool fits = record.match.size() == signals &&
                     std::ranges::none_of(record.match, [](const Series& series) {
                       return series.channels.empty() || series.values.empty();
                     });
@@ -216,6 +316,7 @@ std::vector<Evaluation> Evaluator::evaluate(std::span<const Point> points) {
   std::vector<Evaluation> results;
   for (Attempt& one : attempts) {
     one.result.responses.resize(responses_.size(), kNan);
+    if (one.result.status != Cause::ok) one.result.residuals.clear();
     results.push_back(std::move(one.result));
   }
   return results;
@@ -277,8 +378,10 @@ std::unique_ptr<PreparedCase> Evaluator::prepare_case(std::size_t load_case, std
   const std::string& name = load_cases_[load_case].name;
   add_damping(input.linkage, preparation.model, name.empty() ? "" : name + "_",
               attempt.result.derived);
-  const StudySignals signals = require_signals(input_, preparation.model.mechanism);
-  RunMetrics metrics(input_, signals, input.options, record, like);
+  const MeasuredRun measured = measured_run(load_case, attempt.result.point);
+  const StudySignals signals =
+      require_signals(input_, preparation.model.mechanism, measured.set.get());
+  RunMetrics metrics(input_, signals, input.options, record, like, measured);
   const KnownLimit limit = find_known_limit(preparation, record);
   return std::unique_ptr<PreparedCase>(new PreparedCase{point, input.options,
                                                         std::move(preparation), std::move(metrics),
@@ -314,6 +417,8 @@ void Evaluator::store(std::size_t load_case, const PreparedCase& item, Attempt& 
   }
   const std::vector<double> numbers = item.metrics.reduce(item.outcome);
   result.responses.insert(result.responses.end(), numbers.begin(), numbers.end());
+  const std::vector<double> residuals = item.metrics.residuals(item.outcome);
+  result.residuals.insert(result.residuals.end(), residuals.begin(), residuals.end());
   std::vector<Trace> traces = item.metrics.traces();
   if (!traces.empty()) {
     result.traces.push_back({load_cases_[load_case].name, std::move(traces)});

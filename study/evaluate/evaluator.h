@@ -22,9 +22,13 @@
 
 namespace linkstudy {
 
+// The parameter that shifts the data of an experiment in time.
+std::string measured_offset_path(const std::string& experiment);
+
 class Evaluator {
  public:
-  // `first` is a valid point: its model says which signals there are. Problems with signals are
+  // `first` is a valid point (parameters of time offsets, measured_offset_path, are none of the
+  // model's): its model says which signals there are. Problems with signals are
   // reported at their places; nothing is returned then.
   static std::unique_ptr<Evaluator> make(StudyInput input, std::vector<Parameter> parameters,
                                          const std::vector<Value>& first, Diagnostics& diagnostics);
@@ -38,9 +42,10 @@ class Evaluator {
   // Largest (or, of step_limit, smallest) value of a run number over the load cases.
   double worst(RunNumber number, const std::vector<double>& responses) const;
 
-  // By load case, 0 of them without a reference.
-  std::size_t reference_count() const { return input_.reference ? load_cases_.size() : 0; }
+  std::size_t load_case_count() const { return load_cases_.size(); }
   const std::string& load_case_name(std::size_t i) const { return load_cases_.at(i).name; }
+  // Whether a load case is compared with a run.
+  bool has_reference(std::size_t i) const;
   // Runs the reference of a load case where it is missing. Throws ReferenceFailure; of
   // Cause::cancelled after cancel().
   const ReferenceRecord& run_reference(std::size_t load_case);
@@ -52,6 +57,10 @@ class Evaluator {
   void set_reference(std::size_t load_case, ReferenceRecord record);
   // Histories of the references, by load case; empty without a reference.
   std::vector<CaseTraces> reference_traces() const;
+
+  // What residuals of a load case are taken against; null where it is no experiment. Runs its
+  // reference where that stands for measurements. Throws as run_reference, and InvalidPoint.
+  std::shared_ptr<const MeasuredSet> measured_set(std::size_t load_case);
 
   // Longest time of one evaluation, s; 0: no limit. Cases side by side end together: their run
   // counts in full for each.
@@ -68,6 +77,8 @@ class Evaluator {
 
  private:
   Evaluator(StudyInput input, std::vector<Parameter> parameters, StudySignals signals);
+
+  MeasuredRun measured_run(std::size_t load_case, const Point& point);
 
   std::vector<Override> overrides_of(const LoadCaseInput& load_case,
                                      const std::vector<Value>& point) const;
@@ -95,7 +106,8 @@ class Evaluator {
   std::atomic<bool> cancelled_{false};
   std::atomic<double> reached_{0.0};
   mutable std::mutex mutex_;
-  std::vector<std::optional<ReferenceRecord>> references_;  // by load case
+  std::vector<std::optional<ReferenceRecord>> references_;    // by load case
+  std::vector<std::shared_ptr<const MeasuredSet>> measured_;  // by load case
 };
 
 }  // namespace linkstudy

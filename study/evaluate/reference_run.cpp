@@ -95,8 +95,22 @@ std::vector<Trace> reduce_responses(const StudyInput& input, const StudySignals&
 
 }  // namespace
 
-ReferenceRecord run_reference(const StudyInput& input, const LoadCaseInput& load_case,
+StudyInput reference_view(const StudyInput& input, const LoadCaseInput& load_case) {
+  StudyInput view = input;
+  if (!load_case.reference || !load_case.measured) return view;
+  view.reference = load_case.reference;
+  view.match.clear();
+  for (const TraceInput& signal : load_case.measured->signals) {
+    MatchInput& match = view.match.emplace_back();
+    match.signal = match.reference_signal = signal.signal;
+    match.at = match.reference_at = signal.at;
+  }
+  return view;
+}
+
+ReferenceRecord run_reference(const StudyInput& study, const LoadCaseInput& load_case,
                               const RunLimits& limits) {
+  const StudyInput input = reference_view(study, load_case);
   const ModelInput model = read_reference(input, load_case);
   Preparation preparation = prepare(model.linkage, model.options);
   if (preparation.cause != Cause::ok) fail(load_case, preparation.cause, preparation.message);

@@ -23,6 +23,10 @@ class ReferenceFailure : public std::runtime_error {
 // Number of poses kept of a reference run.
 inline constexpr long kReferencePoses = 8;
 
+// The study as the reference run of a load case sees it: an experiment's own run matches its
+// signals.
+StudyInput reference_view(const StudyInput& input, const LoadCaseInput& load_case);
+
 // The reference with these values set (a load case). Throws ReferenceFailure.
 ReferenceRecord run_reference(const StudyInput& input, const LoadCaseInput& load_case,
                               const RunLimits& limits);

@@ -43,6 +43,10 @@ std::string component_of(const std::string& channel, const std::string& group) {
   return channel.size() > group.size() ? channel.substr(group.size()) : std::string();
 }
 
+bool is_calibration(const StudyInput& input) {
+  return input.kind == FileKind::calibrate;
+}
+
 struct NameClash {
   std::size_t response;  // [[response]]
   std::string name;
@@ -68,6 +72,10 @@ class Lister {
     for (std::size_t i = 0; i < input_.match.size(); ++i) {
       add_errors("max", kMaxMeaning, i);
       add_errors("rms", kRmsMeaning, i);
+    }
+    owner_ = kOurs;
+    if (is_calibration(input_)) {
+      add("residual_rms", "", "root mean square of the weighted residuals");
     }
     for (std::size_t i = 0; i < input_.response.size(); ++i) add_response(i);
     owner_ = kOurs;
@@ -235,12 +243,13 @@ std::vector<LoadCaseInput> load_cases_of(const StudyInput& input) {
   return input.load_case;
 }
 
-ResponseLayout layout_of(const StudySignals& signals) {
+ResponseLayout layout_of(const StudyInput& input, const StudySignals& signals) {
   ResponseLayout layout;
   for (const auto& channels : signals.match) {
     layout.match.push_back(layout.width);
     layout.width += 2 * channels.size();
   }
+  if (is_calibration(input)) ++layout.width;
   for (const auto& channels : signals.response) layout.width += channels.size();
   layout.always = layout.width;
   layout.width += kRunNumbers;
@@ -249,7 +258,7 @@ ResponseLayout layout_of(const StudySignals& signals) {
 
 std::vector<JudgedError> list_judged_errors(const StudyInput& input, const StudySignals& signals) {
   std::vector<JudgedError> errors;
-  const ResponseLayout layout = layout_of(signals);
+  const ResponseLayout layout = layout_of(input, signals);
   std::size_t first = 0;
   for (const LoadCaseInput& load_case : load_cases_of(input)) {
     const std::string prefix = load_case.name.empty() ? "" : load_case.name + ".";

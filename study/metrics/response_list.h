@@ -1,6 +1,7 @@
 // The names, units and meanings of everything an evaluation answers, in the order of
-// RunMetrics::reduce: per load case the errors of every [[match]], every [[response]], and what is
-// always kept. With load cases their names stand in front ("fast_error_max_closure_S_force_x").
+// RunMetrics::reduce: per load case the errors of every [[match]], the root mean square of the
+// residuals of a calibration, every [[response]], and what is always kept. With load cases their
+// names stand in front ("fast_error_max_closure_S_force_x").
 #pragma once
 
 #include <string>
@@ -45,7 +46,7 @@ struct ResponseLayout {
   std::size_t always = 0;          // first of the RunNumbers
   std::size_t index_of(RunNumber number) const { return always + static_cast<std::size_t>(number); }
 };
-ResponseLayout layout_of(const StudySignals& signals);
+ResponseLayout layout_of(const StudyInput& input, const StudySignals& signals);
 
 // The list of responses, read back from its names and meanings alone: what tables of stored results
 // have to go by.

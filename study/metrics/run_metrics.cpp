@@ -60,7 +60,7 @@ Series make_histories(const std::vector<Channel>& channels, const StepGrid& grid
 
 RunMetrics::RunMetrics(const StudyInput& input, const StudySignals& signals,
                        const SimulationOptions& options, const ReferenceRecord* reference,
-                       const RunMetrics* like)
+                       const RunMetrics* like, const MeasuredRun& measured)
     : grid_(make_step_grid(options)) {
   const bool has_same = like != nullptr && like->compares_alike(signals, grid_, reference);
   compared_ = has_same ? like->compared_ : compare(input, signals, grid_, reference);
@@ -69,9 +69,19 @@ RunMetrics::RunMetrics(const StudyInput& input, const StudySignals& signals,
   }
   add_gaps(signals);
   add_responses(input, signals);
-  if (signals.trace.empty()) return;
-  has_traces_ = true;
-  observers_.series.push_back(make_histories(signals.trace, grid_, options.output_interval));
+  if (!signals.trace.empty()) {
+    has_traces_ = true;
+    observers_.series.push_back(make_histories(signals.trace, grid_, options.output_interval));
+  }
+  if (!measured.set) return;
+  measured_ = measured.set;
+  sampler_.emplace(*measured_, measured.offset, grid_, measured.varies);
+  observers_.series.push_back({signals.measured, sampler_->sampling(), {}});
+}
+
+std::vector<double> RunMetrics::residuals(const SimulationOutcome& outcome) const {
+  if (!sampler_ || outcome.cause != Cause::ok) return {};
+  return sampler_->residuals(*measured_, observers_.series.back());
 }
 
 std::shared_ptr<const RunMetrics::Compared> RunMetrics::compare(const StudyInput& input,
@@ -131,6 +141,12 @@ std::vector<double> RunMetrics::reduce(const SimulationOutcome& outcome) const {
   for (std::size_t i = 0; i < compared_->matches.size(); ++i) {
     const std::vector<double> errors = compared_->matches[i].reduce(observers_.comparisons[i]);
     numbers.insert(numbers.end(), errors.begin(), errors.end());
+  }
+  if (sampler_) {
+    const std::vector<double> all = residuals(outcome);
+    double square = 0.0;
+    for (const double one : all) square += one * one;
+    numbers.push_back(std::sqrt(square / static_cast<double>(all.size())));
   }
   for (std::size_t i = 0; i < reductions_.size(); ++i) {
     numbers.push_back(reduce_channel(observers_.reductions[i], reductions_[i]));

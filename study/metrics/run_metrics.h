@@ -6,16 +6,25 @@
 #include <vector>
 
 #include "study/metrics/match_error.h"
+#include "study/metrics/measured_set.h"
 #include "study/metrics/response_list.h"
 
 namespace linkstudy {
+
+// What was measured in the run, and when that was, on its clock.
+struct MeasuredRun {
+  std::shared_ptr<const MeasuredSet> set;  // or null
+  double offset = 0.0;                     // s
+  bool varies = false;                     // the offset does from run to run
+};
 
 class RunMetrics {
  public:
   // `reference` may be null when nothing is matched. What a run is compared with is taken from
   // `like` where that has the same: it is megabytes. Throws InvalidPoint.
   RunMetrics(const StudyInput& input, const StudySignals& signals, const SimulationOptions& options,
-             const ReferenceRecord* reference, const RunMetrics* like = nullptr);
+             const ReferenceRecord* reference, const RunMetrics* like = nullptr,
+             const MeasuredRun& measured = {});
 
   Observers& observers() { return observers_; }
   const Observers& observers() const { return observers_; }
@@ -23,6 +32,9 @@ class RunMetrics {
   // One number for each response of a load case (response_list.h). Of a run that failed only what
   // does not depend on its end is kept, the rest is NaN.
   std::vector<double> reduce(const SimulationOutcome& outcome) const;
+
+  // Against what was measured; empty where nothing was, or the run failed.
+  std::vector<double> residuals(const SimulationOutcome& outcome) const;
 
   // Histories asked for, time first; empty when there are none.
   std::vector<Trace> traces() const;
@@ -51,6 +63,8 @@ class RunMetrics {
   std::shared_ptr<const Compared> compared_;
   Observers observers_;  // comparisons: matches, then gaps
   bool has_traces_ = false;
+  std::shared_ptr<const MeasuredSet> measured_;
+  std::optional<InstantSampler> sampler_;  // its series is the last
 };
 
 // What a [[response]] watches of its channels, and the number it keeps of each.

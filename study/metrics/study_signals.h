@@ -13,6 +13,7 @@ struct StudySignals {
   std::vector<std::vector<Channel>> response;  // by [[response]]
   std::vector<Channel> trace;                  // of all [[trace]], once each; not time
   std::vector<std::vector<Channel>> gaps;      // by closure: x y z
+  std::vector<Channel> measured;               // of the experiment, one for each of its signals
 };
 
 // Whether two runs show the same under these: names, units and what is looked up for them.

@@ -91,6 +91,7 @@ struct Evaluation {
   // Stored apart, as trace sets. Of one value each: what the input says in other terms (damping in
   // N s/m where it gives a ratio), with the load case in front where there are several.
   std::vector<Trace> derived;
+  std::vector<double> residuals;  // of a calibration, against what was measured
   std::vector<CaseTraces> traces;
   // Of model and start; said by rank 0 and not stored.
   std::vector<std::string> warnings;
@@ -109,8 +110,8 @@ struct WholeEvaluation {
 };
 
 void visit_members(auto& archive, Like<WholeEvaluation> auto& whole) {
-  archive(whole.evaluation, whole.evaluation.derived, whole.evaluation.traces,
-          whole.evaluation.warnings);
+  archive(whole.evaluation, whole.evaluation.derived, whole.evaluation.residuals,
+          whole.evaluation.traces, whole.evaluation.warnings);
 }
 
 }  // namespace linkstudy

@@ -30,10 +30,11 @@ Made part_of(AnswerKind kind, const StudyResults& results, std::string_view name
   return found == nullptr ? Made() : Made(titled(*found, results));
 }
 
+constexpr const char* kNotFitted = "only a calibration that has its answer holds it";
 constexpr const char* kNotTuned = "only a tune that has its answer holds it";
 constexpr const char* kNotConverged = "only a converge that has all its levels holds it";
 
-constexpr std::array<ResultsTable, 11> kTables = {{
+constexpr std::array<ResultsTable, 17> kTables = {{
     {"summary", "what varies, the worst errors in percent, responses, status; by load case",
      [](const StudyResults& r) { return Made(summary_table(r)); }},
     {"evaluations", "every parameter and response of every evaluation, and why it ended",
@@ -49,6 +50,23 @@ constexpr std::array<ResultsTable, 11> kTables = {{
     {"certificate", "the claims about the answer and what they rest on",
      [](const StudyResults& r) { return part_of(AnswerKind::tuning, r, "certificate"); },
      kNotTuned},
+    {"calibration", "fitted values, their intervals, whether the data determine them",
+     [](const StudyResults& r) { return part_of(AnswerKind::calibration, r, "estimates"); },
+     kNotFitted},
+    {"correlations", "of the fitted values, by pairs",
+     [](const StudyResults& r) { return part_of(AnswerKind::calibration, r, "correlations"); },
+     kNotFitted},
+    {"data", "what was measured: samples, residuals, their autocorrelation",
+     [](const StudyResults& r) { return part_of(AnswerKind::calibration, r, "data"); }, kNotFitted},
+    {"starts", "where the fits begin and end, best first",
+     [](const StudyResults& r) { return part_of(AnswerKind::calibration, r, "starts"); },
+     kNotFitted},
+    {"profiles", "the best fits with one value held",
+     [](const StudyResults& r) { return part_of(AnswerKind::calibration, r, "profiles"); },
+     kNotFitted},
+    {"residuals", "measured and simulated samples of the best fit",
+     [](const StudyResults& r) { return part_of(AnswerKind::calibration, r, "residuals"); },
+     kNotFitted},
     {"convergence", "every level of every refined quantity: difference, order, GCI, error",
      [](const StudyResults& r) { return part_of(AnswerKind::convergence, r, "convergence"); },
      kNotConverged},

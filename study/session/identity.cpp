@@ -80,6 +80,9 @@ StudyIdentity make_identity(const SessionOptions& options, const Evaluator& eval
   std::vector<std::string> texts = {write_toml(without_run_settings(input.resolved)),
                                     write_toml(input.model->tree())};
   if (input.reference) texts.push_back(write_toml(input.reference->model->tree()));
+  for (const LoadCaseInput& one : input.load_case) {
+    if (one.measured && one.measured->data) texts.push_back(one.measured->data->text);
+  }
   identity.input_sha256 = input_sha256(texts);
   identity.texts = {{"input", text_of_file(input.file)},
                     {"model", text_of_file(input.model->file())},

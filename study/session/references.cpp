@@ -72,7 +72,8 @@ void keep(const Evaluator& evaluator, std::size_t i, std::string bytes, StudyRec
 
 void run_references(Evaluator& evaluator, StudyRecord& record, const RunDeadline& deadline,
                     spdlog::logger& log) {
-  for (std::size_t i = 0; i < evaluator.reference_count(); ++i) {
+  for (std::size_t i = 0; i < evaluator.load_case_count(); ++i) {
+    if (!evaluator.has_reference(i)) continue;
     if (take_stored(evaluator, i, record, log)) continue;
     const auto begin = Clock::now();
     run_one(evaluator, i, deadline, log);
@@ -87,7 +88,8 @@ void run_references(Evaluator& evaluator, StudyRecord& record, const RunDeadline
 
 void share_references(Evaluator& evaluator, Transport& transport) {
   if (transport.size() == 1) return;
-  for (std::size_t i = 0; i < evaluator.reference_count(); ++i) {
+  for (std::size_t i = 0; i < evaluator.load_case_count(); ++i) {
+    if (!evaluator.has_reference(i)) continue;
     const bool is_first = transport.rank() == 0;
     std::string bytes = is_first ? encode_reference(evaluator.run_reference(i)) : "";
     transport.broadcast(bytes);

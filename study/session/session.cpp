@@ -48,7 +48,10 @@ std::string one_line(std::string text) {
 }
 
 std::uint64_t most_evaluations(const StudyInput& input, std::uint64_t total) {
-  return total > 0 ? total : static_cast<std::uint64_t>(input.search.max_evaluations);
+  if (total > 0) return total;
+  const bool is_fit = input.kind == FileKind::calibrate;
+  return is_fit ? static_cast<std::uint64_t>(input.fit.max_evaluations)
+                : static_cast<std::uint64_t>(input.search.max_evaluations);
 }
 
 std::string counts_text(const StudyRecord& record, std::uint64_t total) {

@@ -24,7 +24,7 @@ class StudySession {
   StudySession(const SessionOptions& options, Evaluator& evaluator, StudyRecord& record, Pool& pool,
                spdlog::logger& log, std::uint64_t total);
 
-  const Evaluator& evaluator() const { return evaluator_; }
+  Evaluator& evaluator() { return evaluator_; }
   StudyRecord& record() { return record_; }
   spdlog::logger& log() { return log_; }
 

@@ -1,5 +1,6 @@
 #include "study/session/study_points.h"
 
+#include "study/calibrate/fit_setup.h"
 #include "study/config/input_error.h"
 #include "study/config/precedence.h"
 #include "study/converge/check_instants.h"
@@ -19,12 +20,14 @@ std::vector<Axis> axes_of(const StudyInput& input) {
 
 std::vector<Value> first_point(const StudyInput& input) {
   if (input.kind == FileKind::tune) return {input.tune.front().low, base_step_of(input)};
+  if (input.kind == FileKind::calibrate) return calibration_point(input, first_fitted(input));
   return make_point(input.design, axes_of(input), 0).values;
 }
 
 }  // namespace
 
 std::vector<Parameter> parameters_of(const StudyInput& input) {
+  if (input.kind == FileKind::calibrate) return calibration_parameters(input);
   std::vector<Parameter> parameters;
   for (const VaryInput& vary : input.vary) parameters.push_back(vary.parameter);
   if (input.kind == FileKind::tune) {
@@ -57,6 +60,7 @@ std::unique_ptr<Evaluator> make_evaluator(const StudyInput& input, Diagnostics& 
   if (evaluator && input.kind == FileKind::converge) {
     convergence::check_common_instants(*evaluator, points_of(input), diagnostics);
   }
+  if (evaluator && input.kind == FileKind::calibrate) check_calibration(*evaluator, diagnostics);
   if (evaluator) evaluator->set_timeout(input.run.timeout.value_or(0.0));
   return evaluator;
 }

@@ -145,6 +145,7 @@ const Evaluation& StudyRecord::add(Evaluation evaluation) {
     add_traces({trace_name(id, set.load_case), static_cast<std::int64_t>(id), set.traces});
   }
   if (!evaluation.derived.empty()) journal_.append(derived_set(evaluation));
+  if (!evaluation.residuals.empty()) journal_.append(residuals_set(evaluation));
   journal_.append(evaluation);
   return evaluations_[evaluation.point.id] = std::move(evaluation);
 }

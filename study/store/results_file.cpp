@@ -24,6 +24,7 @@ constexpr std::array<std::string_view, 3> kRunStatusNames = {"running", "complet
 
 constexpr std::string_view kReferencePrefix = "reference";
 constexpr std::string_view kDerivedPrefix = "derived_";
+constexpr std::string_view kResidualsPrefix = "residuals_";
 constexpr std::string_view kTablesSuffix = "_tables";
 constexpr const char* kAnswer = "answer";
 
@@ -206,7 +207,8 @@ void require_format(const Table& tree) {
 }
 
 void add_traces(const TraceSet& set, StudyResults& results) {
-  if (!set.name.starts_with(kDerivedPrefix)) {
+  const bool is_derived = set.name.starts_with(kDerivedPrefix);
+  if (!is_derived && !set.name.starts_with(kResidualsPrefix)) {
     (set.name.starts_with(kReferencePrefix) ? results.references : results.traces).push_back(set);
     return;
   }
@@ -214,7 +216,12 @@ void add_traces(const TraceSet& set, StudyResults& results) {
   const auto found = std::ranges::lower_bound(results.evaluations, id, {},
                                               [](const Evaluation& one) { return one.point.id; });
   const bool is_there = found != results.evaluations.end() && found->point.id == id;
-  if (is_there) found->derived = set.traces;
+  if (!is_there) return;
+  if (is_derived) {
+    found->derived = set.traces;
+  } else if (!set.traces.empty()) {
+    found->residuals = set.traces.front().values;
+  }
 }
 
 Table& answer_of(StudyResults& results, AnswerKind kind, std::string_view name) {
@@ -328,6 +335,12 @@ StudyResults read_stored(const std::filesystem::path& path) {
 TraceSet derived_set(const Evaluation& evaluation) {
   return {fmt::format("{}{}", kDerivedPrefix, evaluation.point.id),
           static_cast<std::int64_t>(evaluation.point.id), evaluation.derived};
+}
+
+TraceSet residuals_set(const Evaluation& evaluation) {
+  return {fmt::format("{}{}", kResidualsPrefix, evaluation.point.id),
+          static_cast<std::int64_t>(evaluation.point.id),
+          {{"residuals", "", evaluation.residuals}}};
 }
 
 std::vector<NamedText> answer_texts(const VerbAnswer& answer) {

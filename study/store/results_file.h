@@ -20,12 +20,13 @@ namespace linkstudy {
 
 // Results as far as a journal knows them: description, evaluations, traces, provenance, texts and
 // input digest. Traces whose name begins with "reference" become references, those of derived_set
-// go to their evaluation, and the texts of answer_texts become answers.
+// and residuals_set go to their evaluation, and the texts of answer_texts become answers.
 StudyResults results_from(const JournalContents& contents);
 
-// How the journal keeps what is derived for an evaluation, and an answer: its JSON object, and its
-// tables.
+// How the journal keeps what is derived for an evaluation, its residuals (results.h5 has those of
+// the best fit only), and an answer: its JSON object, and its tables.
 TraceSet derived_set(const Evaluation& evaluation);
+TraceSet residuals_set(const Evaluation& evaluation);
 std::vector<NamedText> answer_texts(const VerbAnswer& answer);
 // Of which kind a text of answer_texts is; nothing where it is none.
 std::optional<AnswerKind> answer_kind_of(const NamedText& text);

@@ -29,9 +29,9 @@ def shortened(path):
     """Options that run a study over END instead of its own time."""
     options = ["-s", f"simulation.end_time={END}"]
     study = tomllib.loads(path.read_text())
-    for table in ("match", "response", "series"):
+    for table in ("match", "response", "series", "experiment"):
         for position, entry in enumerate(study.get(table, [])):
-            if table == "match" or "window" in entry:
+            if table in ("match", "experiment") or "window" in entry:
                 options += ["-s", f"{table}.{position}.window=[{END / 5}, {END}]"]
     return options
 
@@ -39,7 +39,7 @@ def shortened(path):
 class Configs(unittest.TestCase):
     def test_there_are_mechanisms_and_studies(self):
         self.assertGreaterEqual(len(files_in("mechanisms")), 19)
-        self.assertGreaterEqual(len(files_in("studies")), 10)
+        self.assertGreaterEqual(len(files_in("studies")), 12)
 
     def test_every_file_is_right(self):
         done = run("check", *files_in("mechanisms"), *files_in("studies"))
@@ -100,10 +100,11 @@ class Configs(unittest.TestCase):
     def test_every_study_runs(self):
         for path in files_in("studies"):
             kind = tomllib.loads(path.read_text())["kind"]
-            search = ["-s", "search.scan=4", "-s", "search.max_evaluations=12"]
+            search = {"tune": ["-s", "search.scan=4", "-s", "search.max_evaluations=12"],
+                      "calibrate": ["-s", "fit.starts=1", "-s", "fit.max_evaluations=20"]}
             with self.subTest(file=path.name), tempfile.TemporaryDirectory() as folder:
                 done = run(kind, path, "-o", f"{folder}/results", *shortened(path),
-                           *(search if kind == "tune" else []))
+                           *search.get(kind, []))
                 # So short a run need not hold what is tuned for (4), nor converge (5).
                 codes = {"tune": (0, 4), "converge": (0, 5)}
                 self.assertIn(done.returncode, codes.get(kind, (0,)), done.stderr)

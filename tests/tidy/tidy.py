@@ -14,8 +14,8 @@ from pathlib import Path
 # Layers, top to bottom: a file includes only its own folder and folders above it.
 CORE = """base numerics spatial laws topology flexible model kinematics forces closures dynamics
           simulation""".split()
-STUDY = """record config specialize design metrics evaluate schedule tune converge store report
-           kinematics session cli""".split()
+STUDY = """record config specialize design metrics evaluate schedule tune converge calibrate store
+           report kinematics session cli""".split()
 LAYERS = [f"core/{name}" for name in CORE] + [f"study/{name}" for name in STUDY]
 
 # Headers of a library, and the only places of core/ and study/ that include them.
@@ -23,7 +23,7 @@ LIBRARIES = [
     (r"toml(\+\+|plusplus)?[./]", ["study/config/"]),
     (r"mpi\.h$", ["study/schedule/", "study/cli/main.cpp"]),
     (r"(hdf5\w*|H5\w*)\.h$", ["study/store/"]),
-    (r"nlopt\.", ["study/tune/"]),
+    (r"nlopt\.", ["study/tune/", "study/calibrate/"]),
     (r"boost/numeric/odeint", ["core/numerics/"]),
     (r"boost/program_options", ["study/cli/"]),
     (r"spdlog/", ["study/session/"]),

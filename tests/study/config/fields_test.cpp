@@ -2,6 +2,7 @@
 // back, and a resolved input holds every default and says the same again.
 #include "study/config/fields.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -220,8 +221,10 @@ TEST(Resolved, Every_model_of_ours_holds_all_defaults_and_reads_back_to_the_same
 TEST(Resolved, Every_study_of_ours_holds_all_defaults_and_reads_back_to_itself) {
   const fs::path copy = fs::path(::testing::TempDir()) / "linkstudy_resolved";
   fs::create_directories(copy / "studies");
-  fs::copy(linkstudy::testing::source_file("configs/mechanisms"), copy / "mechanisms",
-           fs::copy_options::recursive | fs::copy_options::overwrite_existing);
+  for (const char* folder : {"mechanisms", "data"}) {
+    fs::copy(linkstudy::testing::source_file(fmt::format("configs/{}", folder)), copy / folder,
+             fs::copy_options::recursive | fs::copy_options::overwrite_existing);
+  }
   for (const fs::path& file : files_in("configs/studies")) {
     Diagnostics diagnostics;
     const std::optional<StudyInput> input = read_study(file, {}, diagnostics);

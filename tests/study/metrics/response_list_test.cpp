@@ -54,7 +54,7 @@ Listed awkward() {
 void expect_read_back(const Listed& listed, const std::vector<std::string>& load_cases) {
   const std::vector<Response> responses = list_responses(listed.input, listed.signals);
   const std::vector<StoredCase> cases = split_responses(responses);
-  const ResponseLayout layout = layout_of(listed.signals);
+  const ResponseLayout layout = layout_of(listed.input, listed.signals);
   ASSERT_EQ(cases.size(), load_cases.size());
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const std::size_t first = i * layout.width;

@@ -1,0 +1,46 @@
+// Measured histories from a CSV file: a line of heads, then a line of numbers for every instant.
+//   - heads may end in a unit in brackets, "Fx [kN]"; numbers are converted to SI units
+//   - cells are separated by what separates the heads: tab, else ';', else ','; quotes as in RFC
+//   4180
+//   - lines that begin with '#', and empty ones, are left out (so is the unit line of
+//     `simulate --csv`)
+//   - an empty cell or NaN is a missing sample; instants must be there, and rise
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "study/config/diagnostic.h"
+#include "study/config/unit.h"
+
+namespace linkstudy {
+
+struct MeasuredChannel {
+  std::string channel;         // of the model
+  std::optional<Unit> unit{};  // of the head; none: SI, whatever the channel has
+  Location at{};               // of the channel, where it was asked for
+  std::vector<double> values;  // SI; NaN: missing
+};
+
+struct MeasuredData {
+  std::vector<double> times;  // s
+  std::vector<MeasuredChannel> channels;
+  std::string text{};  // of the file
+};
+
+// A column of the file and what it is.
+struct WantedColumn {
+  std::string channel;  // "time", or a channel of the model
+  Location channel_at;
+  std::string head;
+  Location head_at;
+};
+
+// Nothing when anything was reported; a file that cannot be opened at `at`.
+std::shared_ptr<const MeasuredData> read_measured_data(const std::string& path, const Location& at,
+                                                       const std::vector<WantedColumn>& wanted,
+                                                       Diagnostics& diagnostics);
+
+}  // namespace linkstudy
