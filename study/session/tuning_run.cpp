@@ -13,7 +13,10 @@ TuningRun::TuningRun(StudySession& session)
 std::vector<Answer> TuningRun::evaluate(const std::vector<Request>& requests) {
   std::vector<Point> points;
   for (const Request& request : requests) {
-    points.push_back({next_id_++, {request.x.front(), base_step_ * request.step_factor}});
+    Point& point = points.emplace_back();
+    point.id = next_id_++;
+    point.values.assign(request.x.begin(), request.x.end());
+    point.values.emplace_back(base_step_ * request.step_factor);
   }
   session_.evaluate(points);
   std::vector<Answer> answers;
