@@ -19,8 +19,13 @@ std::vector<Axis> axes_of(const StudyInput& input) {
 }
 
 std::vector<Value> first_point(const StudyInput& input) {
-  if (input.kind == FileKind::tune) return {input.tune.front().low, base_step_of(input)};
   if (input.kind == FileKind::calibrate) return calibration_point(input, first_fitted(input));
+  if (input.kind == FileKind::tune) {
+    std::vector<Value> lows;
+    for (const TuneInput& tune : input.tune) lows.emplace_back(tune.low);
+    lows.emplace_back(base_step_of(input));
+    return lows;
+  }
   return make_point(input.design, axes_of(input), 0).values;
 }
 
@@ -31,7 +36,7 @@ std::vector<Parameter> parameters_of(const StudyInput& input) {
   std::vector<Parameter> parameters;
   for (const VaryInput& vary : input.vary) parameters.push_back(vary.parameter);
   if (input.kind == FileKind::tune) {
-    parameters.push_back(input.tune.front().parameter);
+    for (const TuneInput& tune : input.tune) parameters.push_back(tune.parameter);
     parameters.push_back(parameter_for(*input.model, kStepPath)
                              .value_or(Parameter{kStepPath, "s", "length of a step"}));
   }
@@ -43,10 +48,13 @@ std::vector<Point> points_of(const StudyInput& input) {
 }
 
 double base_step_of(const StudyInput& input) {
-  const Override low = make_override(input.tune.front().parameter.path, input.tune.front().low);
+  std::vector<Override> lows;
+  for (const TuneInput& tune : input.tune) {
+    lows.push_back(make_override(tune.parameter.path, tune.low));
+  }
   Diagnostics diagnostics;
   const std::optional<ModelInput> model =
-      input.model->with(case_overrides(input, {}, {low}), diagnostics);
+      input.model->with(case_overrides(input, {}, lows), diagnostics);
   throw_if_any(diagnostics);
   return model->options.step;
 }

@@ -1,5 +1,5 @@
-// The points of a study in the order of their ids, and what runs one of them. A tune has a second
-// parameter, simulation.step, because its certificate halves it.
+// The points of a study in the order of their ids, and what runs one of them. A tune has one
+// parameter more, simulation.step, because its certificate halves it.
 #pragma once
 
 #include <memory>

@@ -24,7 +24,10 @@ TuningRun::TuningRun(const Evaluator& evaluator, Source source)
 std::vector<Answer> TuningRun::evaluate(const std::vector<Request>& requests) {
   std::vector<Point> points;
   for (const Request& request : requests) {
-    points.push_back({next_id_++, {request.x.front(), base_step_ * request.step_factor}});
+    Point& point = points.emplace_back();
+    point.id = next_id_++;
+    point.values.assign(request.x.begin(), request.x.end());
+    point.values.emplace_back(base_step_ * request.step_factor);
   }
   source_.evaluate(points);
   std::vector<Answer> answers;

@@ -6,7 +6,9 @@
 #include <cmath>
 
 #include "study/tune/judge_claim.h"
+#include "study/tune/monotone_proof.h"
 #include "study/tune/scan_window.h"
+#include "study/tune/variable_axis.h"
 
 namespace linkstudy::tuning {
 namespace {
@@ -20,14 +22,8 @@ void add_ids(const EvaluationLog& log, const std::vector<double>& x, Claim& clai
   }
 }
 
-bool between(const std::vector<double>& x, const std::vector<double>& low,
-             const std::vector<double>& high) {
-  for (std::size_t j = 0; j < x.size(); ++j) {
-    if (x[j] < low[j] || x[j] > high[j]) {
-      return false;
-    }
-  }
-  return true;
+bool between(const CertificateTerms& terms, const std::vector<double>& x, std::size_t i) {
+  return is_below(terms.lower_neighbours[i], x) && is_below(x, terms.upper_neighbours[i]);
 }
 
 Claim collect_minimality(const CertificateTerms& terms, const EvaluationLog& log) {
@@ -51,12 +47,24 @@ Claim collect_neighbourhood(const CertificateTerms& terms, const EvaluationLog& 
   for (std::size_t i = 0; i < terms.point.size(); ++i) {
     for (const Observation& observation : log.observations()) {
       const Request& request = observation.request;
-      const bool inside = between(request.x, terms.lower_neighbours[i], terms.upper_neighbours[i]);
+      const bool inside = between(terms, request.x, i);
       if (inside && (request.step_factor == 1.0 || request.x == terms.point)) {
         claim.evaluations.push_back(observation.answer.id);
       }
     }
   }
+  return claim;
+}
+
+Claim collect_proof(const CertificateTerms& terms, const EvaluationLog& log) {
+  Claim claim{
+      "C4",
+      fmt::format("nothing lower by more than {:g} decades if errors are monotone", terms.gap),
+      {},
+      {},
+      {}};
+  // The audit is over all of them.
+  for (const Observation& seen : log.observations()) claim.evaluations.push_back(seen.answer.id);
   return claim;
 }
 
@@ -94,6 +102,28 @@ CertificateTerms make_terms(const TuningProblem& problem, const TuningOptions& o
   return terms;
 }
 
+CertificateTerms make_box_terms(const EvaluationLog& log, const std::vector<double>& point,
+                                const std::vector<double>& margin_decades,
+                                const std::vector<std::vector<double>>& scan) {
+  const TuningProblem& problem = log.problem();
+  const TuningOptions& options = log.options();
+  CertificateTerms terms{point, problem.variables, problem.components, options.delta, {}, {}, {}};
+  terms.has_proof = can_be_proven(problem);
+  terms.gap = options.gap;
+  terms.mu = options.mu;
+  terms.slack = options.resolution;
+  terms.scan = scan;
+  for (std::size_t i = 0; i < point.size(); ++i) {
+    const TunedVariable& variable = problem.variables[i];
+    const double up = std::min(options.neighbourhood, 0.5 * margin_decades[i]);
+    terms.lower_neighbours.push_back(point);
+    terms.upper_neighbours.push_back(point);
+    terms.lower_neighbours[i][i] = move_along(variable, point[i], -options.neighbourhood);
+    terms.upper_neighbours[i][i] = move_along(variable, point[i], up);
+  }
+  return terms;
+}
+
 std::vector<Request> list_requests(const CertificateTerms& terms, const EvaluationLog& log) {
   std::vector<Request> requests = {{terms.point, 1.0, "certificate"},
                                    {terms.point, 0.5, "certificate"}};
@@ -121,11 +151,12 @@ std::vector<Request> list_requests(const CertificateTerms& terms, const Evaluati
 Certificate make_certificate(const CertificateTerms& terms, const EvaluationLog& log) {
   Certificate certificate;
   certificate.terms = terms;
-  certificate.claims[0] = {"C0", "k* matches at the step and at half of it", {}, {}, {}};
+  certificate.claims = {{"C0", "k* matches at the step and at half of it", {}, {}, {}}};
   add_ids(log, terms.point, certificate.claims[0]);
-  certificate.claims[1] = collect_minimality(terms, log);
-  certificate.claims[2] = collect_scan(terms, log);
-  certificate.claims[3] = collect_neighbourhood(terms, log);
+  certificate.claims.push_back(collect_minimality(terms, log));
+  certificate.claims.push_back(collect_scan(terms, log));
+  certificate.claims.push_back(collect_neighbourhood(terms, log));
+  if (terms.has_proof) certificate.claims.push_back(collect_proof(terms, log));
   for (Claim& claim : certificate.claims) {
     std::vector<Observation> evidence;
     for (const Observation& observation : log.observations()) {

@@ -6,6 +6,10 @@
 //   C3  the error falls in k about k*: f = log10 max(error / tolerance) drops from the lower
 //       neighbour to k* and from k* to the upper one by more than the noise. Noise is the larger
 //       of |f(h) - f(h/2)| at k* and the largest rise of f between evaluated points in between.
+//       Of several variables each decides some components only: f must drop up to k* along each,
+//       and beyond k* may stay.
+//   C4  of two and three variables: nothing lower by more than the gap, if errors are monotone
+//       (monotone_proof.h)
 // A claim is certified, refuted (an evaluation says otherwise), or inconclusive (an evaluation is
 // missing, ended by a cause that may be the machine's, or the noise hides it). The verdict is
 // refuted if any claim is, else inconclusive if any is, else certified.
@@ -13,7 +17,6 @@
 // make_certificate and check_certificate judge by the same rules from the listed evaluations only.
 #pragma once
 
-#include <array>
 #include <functional>
 #include <optional>
 #include <string_view>
@@ -57,11 +60,15 @@ struct CertificateTerms {
   std::vector<std::vector<double>> scan;              // the declared scan
   std::vector<std::vector<double>> lower_neighbours;  // of C3, one per variable
   std::vector<std::vector<double>> upper_neighbours;
+  bool has_proof = false;  // claims C4
+  double gap = 0.0;        // of C4, decades
+  double mu = 0.0;         // least of C4
+  double slack = 0.0;      // resolution of the gap
 };
 
 struct Certificate {
   CertificateTerms terms;
-  std::array<Claim, 4> claims;
+  std::vector<Claim> claims;
   Verdict verdict = Verdict::inconclusive;
   std::string reason;  // empty when certified
 };
@@ -70,6 +77,10 @@ struct Certificate {
 // the window's margin, whichever is less; never outside the declared range.
 CertificateTerms make_terms(const TuningProblem& problem, const TuningOptions& options,
                             const std::vector<double>& point, double margin_decades);
+// The same of several variables, with the margin along each and the scan of the box.
+CertificateTerms make_box_terms(const EvaluationLog& log, const std::vector<double>& point,
+                                const std::vector<double>& margin_decades,
+                                const std::vector<std::vector<double>>& scan);
 
 // The evaluations the claims need, in a fixed order. Points of the scan below k* that match at the
 // base step are asked for at half of it as well, and so is k_i (1 - delta).

@@ -6,11 +6,12 @@
 #include <exception>
 #include <nlopt.hpp>
 
+#include "study/tune/variable_axis.h"
+
 namespace linkstudy::tuning {
 namespace {
 
 constexpr double kPenalty = 3.0;
-constexpr double kInitialStep = 0.05;  // decades
 using Clock = std::chrono::steady_clock;
 
 // State shared by the objective and the constraints of one algorithm.
@@ -39,12 +40,10 @@ class Run {
     }
   }
 
-  // x_j = start_j * 10^(s_j)
   std::vector<double> point_of(const std::vector<double>& s) const {
     std::vector<double> x = start_;
     for (std::size_t j = 0; j < x.size(); ++j) {
-      const TunedVariable& variable = log_.problem().variables[j];
-      x[j] = std::clamp(start_[j] * std::pow(10.0, s[j]), variable.low, variable.high);
+      x[j] = move_along(log_.problem().variables[j], start_[j], s[j]);
     }
     return x;
   }
@@ -81,12 +80,19 @@ class Run {
   // Nothing may leave through the frames of NLopt's C code.
   void fill_constraints(const std::vector<double>& s, Constraints g) noexcept {
     std::fill(g.begin, g.end, kPenalty);
-    try {
+    keep_exception([&] {
       count_call();
       const Observation* observation = stopped_.empty() ? observe(s) : nullptr;
       if (observation != nullptr) {
         write(observation->answer, g);
       }
+    });
+  }
+
+  template <class Step>
+  void keep_exception(const Step& step) noexcept {
+    try {
+      step();
     } catch (...) {
       error_ = std::current_exception();
       stopped_ = "an evaluation threw";
@@ -172,7 +178,7 @@ void set_up(nlopt::opt& opt, Run& run, const EvaluationLog& log, const std::vect
 }
 
 void set_ends(nlopt::opt& opt, const TuningOptions& options) {
-  opt.set_initial_step(kInitialStep);
+  opt.set_initial_step(options.initial_step);
   opt.set_xtol_abs(0.5 * options.resolution);
   opt.set_maxeval(static_cast<int>(options.confirm_calls));
 }
@@ -202,11 +208,17 @@ Claim optimize(nlopt::opt& opt, const Run& run, const std::vector<double>& start
 std::vector<double> find_lowest(const EvaluationLog& log, const std::vector<double>& start,
                                 std::size_t first) {
   std::vector<double> lowest = start;
+  const Observation* begin = log.find(start, 1.0);
+  bool is_feasible_yet =
+      begin == nullptr || compute_ratio(begin->answer, log.problem().components) <= 1.0;
   for (std::size_t i = first; i < log.observations().size(); ++i) {
     const Observation& seen = log.observations()[i];
     const bool is_feasible = compute_ratio(seen.answer, log.problem().components) <= 1.0;
-    if (is_feasible && compute_objective(seen.request.x) < compute_objective(lowest)) {
+    if (!is_feasible) continue;
+    const double objective = compute_objective(seen.request.x);
+    if (!is_feasible_yet || objective < compute_objective(lowest)) {
       lowest = seen.request.x;
+      is_feasible_yet = true;
     }
   }
   return lowest;

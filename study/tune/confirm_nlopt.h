@@ -1,10 +1,10 @@
-// NLopt asks whether anything lower matches: minimise s subject to
+// NLopt asks whether anything lower matches: minimise sum_j s_j subject to
 //   g_i(s) = log10(error_i / tolerance_i) <= 0,    x_j = start_j * 10^(s_j),
-// with s in decades from the point found, bounded by the declared range. COBYLA asks first, with an
-// explicit initial step; its answer verifies when it ended by its own tolerance, within twice the
-// resolution of the lowest feasible point known, and g there is no more than that. Where it does
-// not verify, an augmented Lagrangian (AUGLAG) over BOBYQA asks again. Evaluations at the base step
-// are remembered by exact x, so a repeated point costs nothing.
+// with s in decades from the point found, bounded by the declared range. COBYLA asks first,
+// with an explicit initial step; its answer verifies when it ended by its own tolerance, within
+// twice the resolution of the lowest feasible point known, and g there is no more than that. Where
+// it does not verify, an augmented Lagrangian (AUGLAG) over BOBYQA asks again. Evaluations at the
+// base step are remembered by exact x, so a repeated point costs nothing.
 //
 // NLopt is not trusted. Its returned point is reported and never used; it may be infeasible, or
 // the last one tried. Budgets are counted here; when one ends the optimiser is told to stop and

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "study/tune/monotone_proof.h"
 #include "study/tune/scan_window.h"
+#include "study/tune/variable_axis.h"
 
 namespace linkstudy::tuning {
 namespace {
@@ -116,7 +118,7 @@ Finding judge_scan(const CertificateTerms& terms, const Evidence& evidence) {
 }
 
 struct Sample {
-  double value = 0.0;
+  double value = 0.0;  // decades from k* along the axis
   double log_ratio = 0.0;
 };
 
@@ -126,10 +128,10 @@ std::vector<Sample> samples_along(const CertificateTerms& terms, const Evidence&
   std::vector<Sample> samples;
   for (const Observation& observation : evidence) {
     std::vector<double> x = observation.request.x;
-    const double value = x[i];
-    x[i] = terms.point[i];
+    const double value = std::log10(x[i] / terms.point[i]);
     const bool inside =
-        value >= terms.lower_neighbours[i][i] && value <= terms.upper_neighbours[i][i];
+        is_below(terms.lower_neighbours[i], x) && is_below(x, terms.upper_neighbours[i]);
+    x[i] = terms.point[i];
     const bool counts = !is_transient(observation.answer.status);
     if (x == terms.point && inside && counts && observation.request.step_factor == 1.0) {
       samples.push_back(
@@ -155,9 +157,16 @@ Finding judge_falling(const CertificateTerms& terms, const Evidence& evidence, s
   const Observation* base = find(evidence, terms.point, 1.0);
   const Observation* half = find(evidence, terms.point, 0.5);
   const std::vector<Sample> samples = samples_along(terms, evidence, i);
-  const bool ends = samples.size() >= 3 && samples.front().value == terms.lower_neighbours[i][i] &&
-                    samples.back().value == terms.upper_neighbours[i][i] &&
-                    samples.front().value < terms.point[i] && terms.point[i] < samples.back().value;
+  const auto reach = [&](const std::vector<std::vector<double>>& neighbours) {
+    return std::log10(neighbours[i][i] / terms.point[i]);
+  };
+  // Of several variables the window above may be a point: another one decides there.
+  const bool is_alone = terms.point.size() == 1;
+  const bool has_lower = samples.size() >= 2 && samples.front().value < 0.0 &&
+                         samples.front().value == reach(terms.lower_neighbours);
+  const bool has_upper = samples.size() >= 3 && samples.back().value > 0.0 &&
+                         samples.back().value == reach(terms.upper_neighbours);
+  const bool ends = has_lower && (has_upper || !is_alone);
   if (base == nullptr || half == nullptr || !ends) {
     return {Verdict::inconclusive, "a neighbour of k* was not evaluated or lies outside the range"};
   }
@@ -165,11 +174,11 @@ Finding judge_falling(const CertificateTerms& terms, const Evidence& evidence, s
   const double at_half = compute_log_ratio(compute_ratio(half->answer, terms.components));
   const double rise = find_largest_rise(samples);
   const double noise = std::max(std::abs(at_base - at_half), rise);
-  const double drop =
-      std::min(samples.front().log_ratio - at_base, at_base - samples.back().log_ratio);
-  const std::string seen =
-      fmt::format("drop {:.2g} decades within {:.2g} of k*, noise {:.2g}", drop,
-                  std::log10(samples.back().value / samples.front().value), noise);
+  const double below = samples.front().log_ratio - at_base;
+  const double above = at_base - samples.back().log_ratio;
+  const double drop = is_alone ? std::min(below, above) : below;
+  const std::string seen = fmt::format("drop {:.2g} decades within {:.2g} of k*, noise {:.2g}",
+                                       drop, samples.back().value - samples.front().value, noise);
   if (drop > noise) {
     return {Verdict::certified, seen};
   }
@@ -178,13 +187,35 @@ Finding judge_falling(const CertificateTerms& terms, const Evidence& evidence, s
 
 Finding judge_neighbourhood(const CertificateTerms& terms, const Evidence& evidence) {
   Finding worst{Verdict::certified, ""};
+  bool is_first = true;
   for (std::size_t i = 0; i < terms.point.size(); ++i) {
-    const Finding finding = judge_falling(terms, evidence, i);
-    if (i == 0 || finding.verdict == Verdict::refuted || worst.verdict == Verdict::certified) {
-      worst = finding;
-    }
+    Finding finding = judge_falling(terms, evidence, i);
+    if (terms.point.size() > 1) finding.reason += " along " + terms.variables[i].path;
+    const bool is_worse =
+        finding.verdict == Verdict::refuted || worst.verdict == Verdict::certified;
+    if (is_first || is_worse) worst = finding;
+    is_first = false;
   }
   return worst;
+}
+
+std::string describe(const MonotoneAudit& audit) {
+  if (audit.contradictions == 0) return fmt::format("none of {} pairs contradicts it", audit.pairs);
+  return fmt::format("{} of {} pairs contradict it, the worst by {:.2g} % (evaluations {} and {})",
+                     audit.contradictions, audit.pairs, 100.0 * audit.worst, audit.lower_id,
+                     audit.upper_id);
+}
+
+Finding judge_proof(const CertificateTerms& terms, const Evidence& evidence) {
+  const MonotoneProof proof =
+      prove(terms.variables, terms.components, terms.point, terms.mu, evidence);
+  const std::string seen = fmt::format(
+      "proven gap {:.4g} decades if errors are monotone to {:.3g} % (which costs {:.2g} decades a "
+      "value); {}",
+      proof.gap(), 100.0 * proof.mu, std::log10(1.0 + proof.mu), describe(proof.audit));
+  const bool is_closed =
+      proof.gap() <= terms.gap + terms.slack && proof.audit.worst <= kMostContradiction;
+  return {is_closed ? Verdict::certified : Verdict::inconclusive, seen};
 }
 
 }  // namespace
@@ -217,6 +248,8 @@ void judge_claim(const CertificateTerms& terms, const std::vector<Observation>& 
     finding = judge_scan(terms, evidence);
   } else if (claim.name == "C3") {
     finding = judge_neighbourhood(terms, evidence);
+  } else if (claim.name == "C4") {
+    finding = judge_proof(terms, evidence);
   }
   claim.verdict = finding.verdict;
   claim.reason = finding.reason;

@@ -47,8 +47,9 @@ inline constexpr auto kWords<tuning::Side> =
 namespace linkstudy::tuning {
 
 struct ScanPoint {
-  double value = 0.0;
-  double ratio = 0.0;  // max error / tolerance; infinite without errors
+  double value = 0.0;          // of the first variable
+  std::vector<double> x = {};  // all values, of several variables
+  double ratio = 0.0;          // max error / tolerance; infinite without errors
   Side side = Side::feasible;
   Cause cause = Cause::ok;
   std::uint64_t evaluation = 0;

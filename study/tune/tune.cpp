@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "study/tune/find_window.h"
+#include "study/tune/tune_box.h"
 
 namespace linkstudy::tuning {
 namespace {
@@ -173,18 +174,6 @@ void add_notes(const TuningOptions& options, TuningResult& result) {
   }
 }
 
-TuningStatus status_of(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::certified:
-      return TuningStatus::certified;
-    case Verdict::refuted:
-      return TuningStatus::refuted;
-    case Verdict::inconclusive:
-      break;
-  }
-  return TuningStatus::inconclusive;
-}
-
 // The point in hand is the lowest accepted, or else the lowest that matches at the base step.
 void describe_window(EvaluationLog& log, Search search, TuningResult& result) {
   const double value = find_lowest_accepted(log).value_or(search.value);
@@ -212,6 +201,7 @@ void describe_window(EvaluationLog& log, Search search, TuningResult& result) {
 TuningResult tune(const TuningProblem& problem, const TuningOptions& options,
                   const EvaluateBatch& evaluate) {
   require_valid(problem, options);
+  if (problem.variables.size() > 1) return tune_box(problem, options, evaluate);
   EvaluationLog log(problem, options, evaluate);
   TuningResult result;
   result.problem = problem;

@@ -1,4 +1,4 @@
-// Finds the lowest value of one variable whose errors all match, in this order:
+// Several variables: tune_box.h. Of one, finds the lowest value whose errors all match:
 //   scan the range; where nothing matches, refine where a window could hide;
 //   close on the lowest feasible boundary, move up if half the step says otherwise;
 //   close on the upper end of the window; let NLopt look for anything lower;

@@ -12,12 +12,6 @@ void check_variables(const TuningProblem& problem, std::vector<Problem>& problem
   if (problem.variables.empty()) {
     problems.push_back({"tune", "no variable is tuned", "add one [[tune]] entry"});
   }
-  if (problem.variables.size() > 1) {
-    problems.push_back(
-        {"tune",
-         fmt::format("{} variables are tuned; only one is supported", problem.variables.size()),
-         "keep one [[tune]] entry and fix the others in base.set"});
-  }
   for (const TunedVariable& variable : problem.variables) {
     const bool ordered = variable.low > 0.0 && variable.low < variable.high;
     if (!ordered || !std::isfinite(variable.high)) {
@@ -70,6 +64,8 @@ void check_decades(const TuningOptions& options, std::vector<Problem>& problems)
   within("resolution", options.resolution, 1e-8, 0.5);
   within("neighbourhood", options.neighbourhood, 1e-6, 2.0);
   within("delta", options.delta, 1e-8, 0.9);
+  within("gap", options.gap, 1e-3, 10.0);
+  within("mu", options.mu, 0.0, 1.0);
   if (-std::log10(1.0 - options.delta) < options.resolution) {
     problems.push_back(
         {"delta",

@@ -1,7 +1,7 @@
 // What a tuner is asked and what it may ask back. It knows numbers only: the caller turns a
 // request into simulations (all load cases) and reduces them to one error per match component.
 //
-// A tuned variable is positive and searched in log10; the objective is the sum of the log10. A
+// Tuned variables are positive and searched in log10; the objective is the sum of the log10. A
 // component matches when error <= tolerance, both relative to the reference.
 #pragma once
 
@@ -42,6 +42,10 @@ struct TuningOptions : SearchOptions {
   // Wall time of NLopt. Finite values make the requests depend on the clock, so it is off unless
   // asked for.
   double confirm_time_s = std::numeric_limits<double>::infinity();
+  double initial_step = 0.05;  // of NLopt, decades
+  // Of the proof in two and three variables (monotone_proof.h).
+  double gap = 0.1;  // decades of the objective
+  double mu = 0.02;  // how far errors may be from monotone
   std::uint64_t seed = 1;
 };
 

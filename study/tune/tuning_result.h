@@ -11,6 +11,7 @@
 namespace linkstudy::tuning {
 
 enum class TuningStatus { certified, refuted, inconclusive, infeasible };
+TuningStatus status_of(Verdict verdict);
 enum class HighLimit { accuracy, stability, range };
 
 }  // namespace linkstudy::tuning
@@ -33,7 +34,8 @@ inline constexpr auto kWords<tuning::HighLimit> =
 
 namespace linkstudy::tuning {
 
-// The feasible interval that starts at the point found. At an open end the range ended first.
+// The feasible interval that starts at the point found; of several variables along the axis of one,
+// the others being at the point. At an open end the range ended first.
 struct Window {
   double low = 0.0;
   double high = 0.0;
@@ -54,6 +56,8 @@ struct TuningResult {
   std::size_t binding = 0;                   // component closest to its tolerance
   std::optional<Observation> first_failure;  // lowest id that ended by a cause
   std::optional<Window> window;              // nothing when no point matches
+  std::vector<Window> windows;               // of several variables, one each
+  std::vector<Observation> staircase;        // the same, minimal points by their objective
   std::optional<Certificate> certificate;
   std::optional<StepSuggestion> suggestion;  // when no point matches
   NloptReport nlopt;

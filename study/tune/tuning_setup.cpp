@@ -35,19 +35,17 @@ tuning::TuningOptions make_tuning_options(const StudyInput& input) {
 }
 
 void check_tune(const StudyInput& input, Diagnostics& diagnostics) {
-  for (std::size_t i = 1; i < input.tune.size(); ++i) {
-    diagnostics.add(input.tune[i].at, "this version tunes one value",
-                    "keep one [[tune]] and vary the other in a study");
-  }
-  const TuneInput& tune = input.tune.front();
-  if (!tune.is_logarithmic) {
-    diagnostics.add(locate(input.resolved, "tune.0.range.lin"),
-                    "this version searches in decades only",
-                    "write range = { log = [lowest, highest] }");
-  }
-  if (tune.parameter.path == kStepPath) {
-    diagnostics.add(tune.at, "simulation.step cannot be tuned: the certificate halves it",
-                    "vary it in a study");
+  for (std::size_t i = 0; i < input.tune.size(); ++i) {
+    const TuneInput& tune = input.tune[i];
+    if (!tune.is_logarithmic) {
+      diagnostics.add(locate(input.resolved, fmt::format("tune.{}.range.lin", i)),
+                      "this version searches in decades only",
+                      "write range = { log = [lowest, highest] }");
+    }
+    if (tune.parameter.path == kStepPath) {
+      diagnostics.add(tune.at, "simulation.step cannot be tuned: the certificate halves it",
+                      "vary it in a study");
+    }
   }
   for (const LoadCaseInput& load_case : input.load_case) {
     const bool sets_step = std::ranges::any_of(

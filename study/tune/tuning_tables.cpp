@@ -72,6 +72,38 @@ Table make_result_table(const TuningResult& result) {
   return table.take();
 }
 
+// One row a variable.
+Table make_box_table(const TuningResult& result) {
+  using Row = TunedVariable;
+  const bool matches = !result.point.empty();
+  TableOf table("result", result.problem.variables);
+  std::size_t i = 0;
+  table.add("parameter", "", "what was tuned", [](const Row& r) { return r.path; });
+  table.add("unit", "", "of its values", [](const Row& r) { return r.unit; });
+  table.add("value", "", "of the match with the least sum of log10",
+            [&](const Row&) { return matches ? result.point[i++] : kNan; });
+  const auto add_end = [&](const char* name, const char* meaning, double Window::*member) {
+    i = 0;
+    table.add(name, "", meaning,
+              [&](const Row&) { return matches ? result.windows[i++].*member : kNan; });
+  };
+  add_end("window_low", "where the values that match begin, the others being as here",
+          &Window::low);
+  add_end("window_high", "where they end", &Window::high);
+  add_end("margin_decades", "log10 of window_high / window_low", &Window::margin_decades);
+  i = 0;
+  table.add("high_limited_by", "", "what ends the window", [&](const Row&) {
+    return matches ? std::string(name_of(result.windows[i++].high_limited_by)) : std::string();
+  });
+  table.add("status", "", "verdict of the certificate, or infeasible",
+            [&](const Row&) { return std::string(name_of(result.status)); });
+  table.add("objective", "", "sum of log10 of the values",
+            [&](const Row&) { return matches ? result.objective : kNan; });
+  table.add("evaluations", "", "how many it took",
+            [&](const Row&) { return to_count(result.observations.size()); });
+  return table.take();
+}
+
 Table make_component_table(const TuningResult& result) {
   std::vector<double> errors = result.answer.errors;
   errors.resize(result.problem.components.size(), kNan);
@@ -88,7 +120,13 @@ Table make_component_table(const TuningResult& result) {
 Table make_scan_table(const TuningResult& result) {
   using Row = ScanPoint;
   TableOf table("scan", result.points);
-  table.add("value", variable_of(result).unit, "tried", [](const Row& r) { return r.value; });
+  const std::vector<TunedVariable>& variables = result.problem.variables;
+  if (variables.size() == 1) {
+    table.add("value", variables[0].unit, "tried", [](const Row& r) { return r.value; });
+  }
+  for (std::size_t j = 0; j < variables.size() && variables.size() > 1; ++j) {
+    table.add(variables[j].path, variables[j].unit, "tried", [j](const Row& r) { return r.x[j]; });
+  }
   table.add("ratio", "1", "largest error over its tolerance", [](const Row& r) { return r.ratio; });
   table.add("side", "", "feasible, or on which side it fails",
             [](const Row& r) { return std::string(name_of(r.side)); });
@@ -120,8 +158,11 @@ Table make_evaluation_table(const TuningResult& result) {
   using Row = Observation;
   TableOf table("evaluations", result.observations);
   table.add("evaluation", "", "its number", [](const Row& r) { return to_count(r.answer.id); });
-  table.add("value", variable_of(result).unit, "tried",
-            [](const Row& r) { return r.request.x.front(); });
+  const std::vector<TunedVariable>& variables = result.problem.variables;
+  for (std::size_t j = 0; j < variables.size(); ++j) {
+    table.add(variables.size() == 1 ? "value" : variables[j].path, variables[j].unit, "tried",
+              [j](const Row& r) { return r.request.x[j]; });
+  }
   table.add("step_factor", "1", "of the base step",
             [](const Row& r) { return r.request.step_factor; });
   table.add("purpose", "", "why it was asked for", [](const Row& r) { return r.request.purpose; });
@@ -135,8 +176,9 @@ Table make_evaluation_table(const TuningResult& result) {
 }  // namespace
 
 std::vector<Table> make_tables(const TuningResult& result) {
-  return {make_result_table(result), make_component_table(result), make_scan_table(result),
-          make_certificate_table(result), make_evaluation_table(result)};
+  return {result.problem.variables.size() == 1 ? make_result_table(result) : make_box_table(result),
+          make_component_table(result), make_scan_table(result), make_certificate_table(result),
+          make_evaluation_table(result)};
 }
 
 }  // namespace linkstudy::tuning

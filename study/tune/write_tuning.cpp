@@ -42,16 +42,23 @@ void add_damping(std::string& text, const TuningResult& result) {
   }
 }
 
+std::string format_window(const Window& window, const std::string& unit) {
+  return fmt::format("{:.6g} .. {:.6g} {}, {:.2f} decades, above limited by {}", window.low,
+                     window.high, unit, window.margin_decades, name_of(window.high_limited_by));
+}
+
 void add_window(std::string& text, const TuningResult& result) {
+  for (std::size_t i = 0; i < result.windows.size(); ++i) {
+    const TunedVariable& variable = result.problem.variables[i];
+    add_line(text, i == 0 ? "window" : "",
+             variable.path + ": " + format_window(result.windows[i], variable.unit));
+  }
+  if (!result.windows.empty()) return;
   if (!result.window) {
     add_line(text, "window", "empty");
     return;
   }
-  const Window& window = *result.window;
-  add_line(text, "window",
-           fmt::format("{:.6g} .. {:.6g} {}, {:.2f} decades, above limited by {}", window.low,
-                       window.high, variable_of(result).unit, window.margin_decades,
-                       name_of(window.high_limited_by)));
+  add_line(text, "window", format_window(*result.window, variable_of(result).unit));
 }
 
 void add_answer(std::string& text, const TuningResult& result) {
@@ -62,7 +69,7 @@ void add_answer(std::string& text, const TuningResult& result) {
   const MatchComponent& component = result.problem.components[result.binding];
   std::string binding = fmt::format("{}: error {:.4g} of {:.4g}", component.name,
                                     answer.errors[result.binding], component.tolerance);
-  if (result.point.empty()) {
+  if (result.point.empty() && result.problem.variables.size() == 1) {
     binding += fmt::format(" at {:.6g} {} (evaluation {})", result.answer_value,
                            variable_of(result).unit, answer.id);
   }
@@ -80,7 +87,7 @@ void add_first_failure(std::string& text, const TuningResult& result) {
   const std::string said = answer.message.empty() ? "" : ": " + answer.message;
   add_line(text, "first end",
            fmt::format("evaluation {} at {:.6g} {}: {}{}", answer.id,
-                       result.first_failure->request.x.front(), variable_of(result).unit,
+                       fmt::join(result.first_failure->request.x, ", "), variable_of(result).unit,
                        linkstudy::name_of(answer.status), said));
 }
 
@@ -117,9 +124,13 @@ Json make_binding(const TuningResult& result) {
           {"tolerance", component.tolerance}};
 }
 
-std::string describe_nlopt(const NloptReport& nlopt) {
+std::string describe_nlopt(const TuningResult& result) {
+  const NloptReport& nlopt = result.nlopt;
   if (!nlopt.ran) {
     return nlopt.ended;
+  }
+  if (!result.windows.empty()) {
+    return fmt::format("{}: {} evaluations ({})", nlopt.algorithm, nlopt.evaluations, nlopt.ended);
   }
   const std::string found = nlopt.found_lower ? fmt::format("a match at {:.6g}", nlopt.lowest)
                                               : std::string("nothing lower");
@@ -141,6 +152,19 @@ void add_certificate(std::string& text, const TuningResult& result) {
   }
 }
 
+// Minimal points that match: nothing found that matches is nowhere above one of them.
+void add_staircase(std::string& text, const TuningResult& result) {
+  constexpr std::size_t kShown = 5;
+  const std::size_t count = std::min(kShown, result.staircase.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const Observation& one = result.staircase[i];
+    add_line(
+        text, i == 0 ? "minimal" : "",
+        fmt::format("{:.6g}: sum of log10 {:.4f} (evaluation {})", fmt::join(one.request.x, ", "),
+                    compute_objective(one.request.x), one.answer.id));
+  }
+}
+
 void add_points(std::string& text, const TuningResult& result) {
   text += fmt::format("\n{:>14}  {:>15}  {:<16}{:>10}\n", "value", "error/tolerance", "side",
                       "evaluation");
@@ -152,20 +176,44 @@ void add_points(std::string& text, const TuningResult& result) {
     const std::string side = point.side == Side::failed && ended
                                  ? std::string(linkstudy::name_of(point.cause))
                                  : std::string(name_of(point.side));
-    text += fmt::format("{:>14.6g}  {:>15.4g}  {:<16}{:>10}\n", point.value, point.ratio, side,
+    const std::string value = point.x.empty() ? fmt::format("{:.6g}", point.value)
+                                              : fmt::format("{:.6g}", fmt::join(point.x, " "));
+    text += fmt::format("{:>14}  {:>15.4g}  {:<16}{:>10}\n", value, point.ratio, side,
                         point.evaluation);
   }
 }
 
-Json make_window(const TuningResult& result) {
-  if (!result.window) {
-    return nullptr;
-  }
-  const Window& window = *result.window;
+Json describe_window(const Window& window) {
   return {{"low", window.low},
           {"high", window.high},
           {"margin_decades", window.margin_decades},
           {"high_limited_by", name_of(window.high_limited_by)}};
+}
+
+Json make_window(const TuningResult& result) {
+  const bool has_one = result.window && result.windows.empty();
+  return has_one ? describe_window(*result.window) : Json(nullptr);
+}
+
+// What only several variables have.
+void add_box_keys(Json& json, const TuningResult& result) {
+  if (result.problem.variables.size() == 1) return;
+  Json windows = Json::object();
+  for (std::size_t i = 0; i < result.windows.size(); ++i) {
+    windows[result.problem.variables[i].path] = describe_window(result.windows[i]);
+  }
+  Json staircase = Json::array();
+  for (const Observation& one : result.staircase) {
+    Json step = {{"evaluation", one.answer.id},
+                 {"objective", compute_objective(one.request.x)},
+                 {"parameters", Json::object()}};
+    for (std::size_t i = 0; i < one.request.x.size(); ++i) {
+      step["parameters"][result.problem.variables[i].path] = one.request.x[i];
+    }
+    staircase.push_back(std::move(step));
+  }
+  json["windows"] = std::move(windows);
+  json["staircase"] = std::move(staircase);
 }
 
 Json make_claims(const TuningResult& result) {
@@ -205,9 +253,10 @@ std::string write_text(const TuningResult& result) {
   add_answer(text, result);
   add_first_failure(text, result);
   if (result.window) {
-    add_line(text, "NLopt", describe_nlopt(result.nlopt));
+    add_line(text, "NLopt", describe_nlopt(result));
   }
   add_certificate(text, result);
+  add_staircase(text, result);
   for (const std::string& note : result.notes) {
     add_line(text, "note", note);
   }
@@ -242,6 +291,7 @@ std::string write_json(const TuningResult& result, const std::string& digest) {
                {"evaluations", result.observations.size()},
                {"rounds", result.rounds},
                {"digest", digest}};
+  add_box_keys(json, result);
   return json.dump();
 }
 

@@ -120,10 +120,9 @@ const BadStudy kBadStudies[] = {
     {"taken_name", "study.toml", "name = \"crank_speed\"", "name = \"gap_max\"",
      "the name of another"},
     {"linear_range", "tune.toml", "range = { log", "range = { lin", "decades"},
-    {"two_variables", "tune.toml", "[[match]]",
-     "[[tune]]\nparameter = \"closure.S.sde.damping_ratio\"\nrange = { log = [0.1, 1.0] }\n"
-     "[[match]]",
-     "tunes one value"},
+    {"step_beside_another", "tune.toml", "[[match]]",
+     "[[tune]]\nparameter = \"simulation.step\"\nrange = { log = [1e-4, 1e-3] }\n[[match]]",
+     "cannot be tuned"},
     {"tuned_step", "tune.toml", "parameter = \"closure.S.sde.stiffness\"",
      "parameter = \"simulation.step\"", "simulation.step"},
     {"load_case_with_step", "tune.toml", "[[match]]",

@@ -1,0 +1,198 @@
+#include "study/tune/tune_box.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "study/tune/branch_and_bound.h"
+#include "study/tune/polish_point.h"
+#include "study/tune/scan_box.h"
+
+#include "study/tune/start_nlopt.h"
+
+namespace linkstudy::tuning {
+namespace {
+
+constexpr int kMostPasses = 6;
+constexpr std::size_t kStarts = 4;
+constexpr double kWideStep = 0.25;    // of NLopt from the scan, decades
+constexpr double kNarrowStep = 0.03;  // from a match that the proof found
+
+std::size_t evidence_reserve(const EvaluationLog& log) {
+  return std::min<std::size_t>(log.options().max_evaluations / 4,
+                               8 + 24 * log.problem().variables.size());
+}
+
+class BoxTuning {
+ public:
+  BoxTuning(const TuningProblem& problem, const TuningOptions& options,
+            const EvaluateBatch& evaluate)
+      : log_(problem, options, evaluate), reserve_(evidence_reserve(log_)) {
+    result_.problem = problem;
+  }
+
+  TuningResult run() {
+    scan_ = make_box_scan(log_.problem(), log_.options().scan);
+    std::vector<Request> requests;
+    for (const std::vector<double>& x : scan_) requests.push_back({x, 1.0, "scan"});
+    log_.evaluate(requests);
+    const std::size_t starts = std::min(kStarts, log_.options().batch);
+    result_.nlopt = search_from(log_, choose_starts(log_, starts), kWideStep, reserve_);
+    if (settle_lowest(log_, reserve_)) {
+      search();
+      describe_point();
+    } else {
+      describe_no_match();
+    }
+    finish();
+    return std::move(result_);
+  }
+
+ private:
+  void search() {
+    for (int pass = 0; pass < kMostPasses; ++pass) {
+      point_ = polish_point(log_, settle_lowest(log_, reserve_).value(), reserve_);
+      gather_evidence();
+      if (settle_lowest(log_, 0).value() != point_ && improves()) continue;
+      if (!can_be_proven(log_.problem())) return;
+      bound_ = gather_proof(log_, point_, 0);
+      if (bound_->end != BoundEnd::lower_match) return;
+      const NloptReport more =
+          search_from(log_, {settle_lowest(log_, 0).value()}, kNarrowStep, reserve_);
+      result_.nlopt.evaluations += more.evaluations;
+    }
+  }
+
+  bool improves() {
+    return compute_objective(point_) - compute_objective(settle_lowest(log_, 0).value()) >
+           log_.options().resolution;
+  }
+
+  void gather_evidence() {
+    const std::size_t kept = 6 + 4 * point_.size();
+    windows_ = find_windows(log_, point_, std::min(kept, log_.remaining()));
+    std::vector<double> margins;
+    for (std::size_t j = 0; j < point_.size(); ++j) margins.push_back(windows_[j].margin_decades);
+    terms_ = make_box_terms(log_, point_, margins, scan_);
+    log_.evaluate(list_requests(terms_, log_));
+    log_.evaluate(list_requests(terms_, log_));  // half steps of what the first round showed
+  }
+
+  void describe_point() {
+    const std::vector<double> lowest = settle_lowest(log_, 0).value();
+    if (log_.acceptance(lowest) == Acceptance::accepted && lowest != point_ && improves()) {
+      point_ = lowest;  // the passes ended before it was followed
+      gather_evidence();
+    }
+    result_.point = point_;
+    result_.answer = log_.find(point_, 1.0)->answer;
+    result_.answer_value = point_.front();
+    result_.binding = find_binding(result_.answer, log_.problem().components);
+    result_.objective = compute_objective(point_);
+    result_.windows = windows_;
+    result_.window = windows_.front();
+    result_.certificate = make_certificate(terms_, log_);
+    result_.status = status_of(result_.certificate->verdict);
+    result_.reason = result_.certificate->reason;
+    result_.staircase =
+        can_be_proven(log_.problem()) ? find_staircase(log_) : std::vector<Observation>{};
+    if (result_.status == TuningStatus::inconclusive) result_.reason += say_end();
+  }
+
+  std::string say_end() const {
+    const BoundEnd end = bound_ ? bound_->end : BoundEnd::closed;
+    if (log_.remaining() == 0 || end == BoundEnd::budget) {
+      return fmt::format("; the budget of {} evaluations is used up: raise max_evaluations",
+                         log_.options().max_evaluations);
+    }
+    if (end == BoundEnd::undecided) return "; with this mu no smaller gap can be proven";
+    if (end == BoundEnd::not_monotone) return "; such errors are not monotone";
+    return {};
+  }
+
+  void describe_no_match() {
+    const std::vector<std::vector<double>> nearest = choose_starts(log_, 1);
+    const bool is_transient_seen = std::ranges::any_of(
+        log_.observations(),
+        [](const Observation& seen) { return is_transient(seen.answer.status); });
+    result_.status = TuningStatus::infeasible;
+    result_.reason = "no point of the box matches";
+    if (!nearest.empty()) describe_nearest(nearest.front());
+    if (log_.exhausted()) {
+      result_.status = TuningStatus::inconclusive;
+      result_.reason = fmt::format(
+          "no match seen, and the budget of {} evaluations is used up: "
+          "raise max_evaluations",
+          log_.options().max_evaluations);
+    } else if (is_transient_seen) {
+      result_.status = TuningStatus::inconclusive;
+      result_.reason = "no match seen, but some evaluations ended by causes of the machine";
+    }
+  }
+
+  void describe_nearest(const std::vector<double>& x) {
+    result_.answer = log_.find(x, 1.0)->answer;
+    result_.answer_value = x.front();
+    result_.binding = find_binding(result_.answer, log_.problem().components);
+    const MatchComponent& component = log_.problem().components[result_.binding];
+    result_.reason += fmt::format("; nearest is {:.4g}, where {} misses by a factor of {:.3g}",
+                                  fmt::join(x, ", "), component.name,
+                                  compute_ratio(result_.answer, log_.problem().components));
+    if (log_.remaining() > 0) log_.evaluate({{x, 0.5, "half_step"}});
+    const Observation* half = log_.find(x, 0.5);
+    const bool is_helped =
+        half != nullptr && compute_ratio(half->answer, log_.problem().components) <= 1.0;
+    if (is_helped) {
+      result_.reason +=
+          fmt::format("; at half the step it matches: use step <= {:.2g} s", half->answer.step);
+    }
+  }
+
+  void finish() {
+    result_.points = classify_box(log_, scan_);
+    result_.observations = log_.observations();
+    result_.rounds = log_.rounds();
+    for (const Observation& seen : log_.observations()) {
+      if (seen.answer.status == Cause::ok) continue;
+      result_.first_failure = seen;
+      break;
+    }
+    if (result_.point.empty()) return;
+    add_notes();
+  }
+
+  void add_notes() {
+    for (std::size_t j = 0; j < point_.size(); ++j) {
+      const TunedVariable& variable = log_.problem().variables[j];
+      if (!windows_[j].low_open) continue;
+      result_.notes.push_back(
+          fmt::format("'{}' matches to the end of its range at {:.6g}: extend it to find the "
+                      "boundary",
+                      variable.path, point_[j]));
+    }
+    if (result_.answer.h_omega > 1.0) {
+      result_.notes.push_back(fmt::format(
+          "h omega_max is {:.3g}, above 1: the step resolves the fastest oscillation poorly",
+          result_.answer.h_omega));
+    }
+  }
+
+  EvaluationLog log_;
+  std::size_t reserve_;
+  TuningResult result_;
+  std::vector<std::vector<double>> scan_;
+  std::vector<double> point_;
+  std::vector<Window> windows_;
+  CertificateTerms terms_;
+  std::optional<BoundReport> bound_;
+};
+
+}  // namespace
+
+TuningResult tune_box(const TuningProblem& problem, const TuningOptions& options,
+                      const EvaluateBatch& evaluate) {
+  return BoxTuning(problem, options, evaluate).run();
+}
+
+}  // namespace linkstudy::tuning
