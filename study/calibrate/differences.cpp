@@ -15,8 +15,8 @@ OffsetPair offsets_at(double u, double length) {
   return {1.0, -1.0};
 }
 
-Vector column_of(const OffsetPair& offsets, double length, const Vector& here, const FitSample& one,
-                 const FitSample& other) {
+Vector jacobian_column(const OffsetPair& offsets, double length, const Vector& here,
+                       const FitSample& one, const FitSample& other) {
   const bool is_central = offsets.one == -offsets.other;
   if (one.is_ok() && other.is_ok()) {
     if (is_central) return (one.residuals - other.residuals) / (2.0 * length);
@@ -48,8 +48,8 @@ Matrix make_jacobian(const DifferencePlan& plan, const Vector& here,
   std::size_t next = 0;
   for (Eigen::Index i = 0; i < plan.point.size(); ++i) {
     if (plan.is_held(i)) continue;
-    jacobian.col(i) = column_of(offsets_at(plan.point[i], plan.lengths[i]), plan.lengths[i], here,
-                                *answers[next], *answers[next + 1]);
+    jacobian.col(i) = jacobian_column(offsets_at(plan.point[i], plan.lengths[i]), plan.lengths[i],
+                                      here, *answers[next], *answers[next + 1]);
     next += 2;
   }
   return jacobian;

@@ -14,7 +14,7 @@
 namespace linkstudy {
 namespace {
 
-int run(bool json, StudySession& session) {
+int run_refinement(bool json, StudySession& session) {
   std::optional<convergence::Convergence> result;
   const StudyEnd end = end_study(session, [&] { result = run_convergence(session); });
   if (!result) {
@@ -36,7 +36,7 @@ int run(bool json, StudySession& session) {
 int run_converge(const CommandLine& line) {
   return run_session(
       line, [&] { return read_study_input(line, FileKind::converge); },
-      [&](StudySession& session) { return run(line.json, session); });
+      [&](StudySession& session) { return run_refinement(line.json, session); });
 }
 
 }  // namespace linkstudy

@@ -26,7 +26,7 @@ int print_result(bool json, const tuning::TuningResult& result, const std::strin
   return result.status == tuning::TuningStatus::certified ? kDone : kNotTuned;
 }
 
-int run(bool json, StudySession& session) {
+int run_tuning(bool json, StudySession& session) {
   const StudyInput& input = session.evaluator().input();
   std::optional<tuning::TuningResult> result;
   const StudyEnd end = end_study(session, [&] {
@@ -47,7 +47,7 @@ int run(bool json, StudySession& session) {
 int run_tune(const CommandLine& line) {
   return run_session(
       line, [&] { return read_study_input(line, FileKind::tune); },
-      [&](StudySession& session) { return run(line.json, session); });
+      [&](StudySession& session) { return run_tuning(line.json, session); });
 }
 
 }  // namespace linkstudy

@@ -25,7 +25,7 @@ struct CsvLine {
   std::vector<CsvCell> cells;
 };
 
-std::string trimmed(std::string_view text) {
+std::string without_blanks(std::string_view text) {
   constexpr std::string_view kBlank = " \t\r";
   const std::size_t first = text.find_first_not_of(kBlank);
   if (first == std::string_view::npos) return {};
@@ -45,7 +45,7 @@ std::vector<CsvCell> split_line(std::string_view line, char separator) {
   for (std::size_t i = 0; i <= line.size(); ++i) {
     const bool is_end = i == line.size() || (!is_quoted && line[i] == separator);
     if (is_end) {
-      cells.push_back({trimmed(text), code_points(line.substr(0, begin)) + 1});
+      cells.push_back({without_blanks(text), code_points(line.substr(0, begin)) + 1});
       text.clear();
       begin = i + 1;
     } else if (line[i] != '"') {
@@ -77,7 +77,7 @@ std::vector<CsvLine> split_text(std::string_view text) {
     const std::string_view line = text.substr(0, end);
     text.remove_prefix(std::min(end + 1, text.size()));
     ++number;
-    const std::string content = trimmed(line);
+    const std::string content = without_blanks(line);
     if (content.empty() || content.front() == '#') continue;
     if (lines.empty()) separator = find_separator(line);
     lines.push_back({number, split_line(line, separator)});

@@ -1,6 +1,6 @@
 // Files of all kinds but "model": which model, what is varied, tuned, fitted or refined, what is
-// compared and kept. Every parameter path is checked against the model, every value converted to its
-// unit. Names of signals are not judged here; `at` is the place for whoever does.
+// compared and kept. Every parameter path is checked against the model, every value converted to
+// its unit. Names of signals are not judged here; `at` is the place for whoever does.
 #pragma once
 
 #include "study/config/fit_options.h"

@@ -34,18 +34,18 @@ std::string trimmed(std::string_view text) {
   return std::string(text.substr(begin, text.find_last_not_of(' ') - begin + 1));
 }
 
-struct Condition {
+struct RowTest {
   std::string column;
   std::string_view sign;
   std::string value;
 };
 
-Condition split_condition(const std::string& text) {
+RowTest split_condition(const std::string& text) {
   const std::size_t at = text.find_first_of("=!<>");
   if (at != std::string::npos) {
     for (const std::string_view sign : kOperators) {
       if (!std::string_view(text).substr(at).starts_with(sign)) continue;
-      Condition one{trimmed(text.substr(0, at)), sign, trimmed(text.substr(at + sign.size()))};
+      RowTest one{trimmed(text.substr(0, at)), sign, trimmed(text.substr(at + sign.size()))};
       if (one.column.empty() || one.value.empty()) break;
       return one;
     }
@@ -56,8 +56,8 @@ Condition split_condition(const std::string& text) {
                   text));
 }
 
-std::vector<Condition> split_conditions(std::string text) {
-  std::vector<Condition> all;
+std::vector<RowTest> split_conditions(std::string text) {
+  std::vector<RowTest> all;
   for (std::size_t at = text.find(" and "); at != std::string::npos; at = text.find(" and ", at)) {
     text.replace(at, 5, ",");
   }
@@ -109,7 +109,7 @@ double number_at(const Column& column, std::size_t row) {
       column.values);
 }
 
-void keep_rows(const Table& table, const Condition& wanted, std::vector<std::size_t>& rows) {
+void keep_rows(const Table& table, const RowTest& wanted, std::vector<std::size_t>& rows) {
   const Column& column = require_column(table, wanted.column);
   if (is_number(column)) {
     const double value = read_number(column, wanted.value);
@@ -150,7 +150,7 @@ Table choose_columns(const Table& table, const std::vector<std::string>& names) 
 Table choose_rows(const Table& table, const std::string& text) {
   std::vector<std::size_t> rows(row_count(table));
   for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = i;
-  for (const Condition& wanted : split_conditions(text)) keep_rows(table, wanted, rows);
+  for (const RowTest& wanted : split_conditions(text)) keep_rows(table, wanted, rows);
   return pick_rows(table, rows);
 }
 

@@ -156,7 +156,7 @@ std::string describe(nlopt::result result) {
 }
 
 // What an algorithm said in the end.
-struct Claim {
+struct Ending {
   std::vector<double> x;
   bool ended_by_itself = false;
   bool is_spent = false;
@@ -183,25 +183,25 @@ void set_ends(nlopt::opt& opt, const TuningOptions& options) {
   opt.set_maxeval(static_cast<int>(options.confirm_calls));
 }
 
-Claim optimize(nlopt::opt& opt, const Run& run, const std::vector<double>& start) {
-  Claim claim;
+Ending optimize(nlopt::opt& opt, const Run& run, const std::vector<double>& start) {
+  Ending ending;
   std::vector<double> s(start.size(), 0.0);
   double value = 0.0;
   try {
     const nlopt::result result = opt.optimize(s, value);
-    claim.ended = describe(result);
-    claim.ended_by_itself = result > 0 && result != nlopt::MAXEVAL_REACHED;
+    ending.ended = describe(result);
+    ending.ended_by_itself = result > 0 && result != nlopt::MAXEVAL_REACHED;
   } catch (const std::exception& error) {
-    claim.ended = error.what();
+    ending.ended = error.what();
   }
   run.rethrow();
   if (!run.stopped().empty()) {
-    claim.ended = run.stopped();
-    claim.ended_by_itself = false;
-    claim.is_spent = run.is_spent();
+    ending.ended = run.stopped();
+    ending.ended_by_itself = false;
+    ending.is_spent = run.is_spent();
   }
-  claim.x = run.point_of(s);
-  return claim;
+  ending.x = run.point_of(s);
+  return ending;
 }
 
 // Our own incumbent: the lowest feasible point among the start and what was seen since `first`.
@@ -225,35 +225,35 @@ std::vector<double> find_lowest(const EvaluationLog& log, const std::vector<doub
 }
 
 // Why a claim does not verify; empty where it does.
-std::string find_fault(const EvaluationLog& log, const Claim& claim,
+std::string find_fault(const EvaluationLog& log, const Ending& ending,
                        const std::vector<double>& lowest) {
   const double slack = 2.0 * log.options().resolution;
-  const Observation* seen = log.find(claim.x, 1.0);
-  if (!claim.ended_by_itself) return claim.ended;
+  const Observation* seen = log.find(ending.x, 1.0);
+  if (!ending.ended_by_itself) return ending.ended;
   if (seen == nullptr) return "it returned a point it never tried";
   if (find_violation(seen->answer, log.problem().components) > slack) {
     return "it returned a point that does not match";
   }
-  if (compute_objective(claim.x) > compute_objective(lowest) + slack) {
+  if (compute_objective(ending.x) > compute_objective(lowest) + slack) {
     return "it returned a point above one that matches";
   }
   return {};
 }
 
-Claim run_cobyla(EvaluationLog& log, const std::vector<double>& start, std::size_t budget,
-                 NloptReport& report) {
+Ending run_cobyla(EvaluationLog& log, const std::vector<double>& start, std::size_t budget,
+                  NloptReport& report) {
   nlopt::opt opt(nlopt::LN_COBYLA, static_cast<unsigned>(start.size()));
   Run run(log, start, budget, opt);
   set_up(opt, run, log, start);
   set_ends(opt, log.options());
   report.algorithm = "COBYLA";
-  Claim claim = optimize(opt, run, start);
+  Ending ending = optimize(opt, run, start);
   report.calls += run.calls();
-  return claim;
+  return ending;
 }
 
-Claim run_augmented_lagrangian(EvaluationLog& log, const std::vector<double>& start,
-                               std::size_t budget, NloptReport& report) {
+Ending run_augmented_lagrangian(EvaluationLog& log, const std::vector<double>& start,
+                                std::size_t budget, NloptReport& report) {
   nlopt::opt opt(nlopt::LN_AUGLAG, static_cast<unsigned>(start.size()));
   nlopt::opt inner(nlopt::LN_BOBYQA, static_cast<unsigned>(start.size()));
   Run run(log, start, budget, opt);
@@ -262,9 +262,9 @@ Claim run_augmented_lagrangian(EvaluationLog& log, const std::vector<double>& st
   set_ends(inner, log.options());
   opt.set_local_optimizer(inner);
   report.algorithm = "AUGLAG with BOBYQA";
-  Claim claim = optimize(opt, run, start);
+  Ending ending = optimize(opt, run, start);
   report.calls += run.calls();
-  return claim;
+  return ending;
 }
 
 }  // namespace
@@ -283,19 +283,19 @@ NloptReport confirm_with_nlopt(EvaluationLog& log, const std::vector<double>& st
   }
   nlopt::srand(static_cast<unsigned long>(log.options().seed));
   report.ran = true;
-  Claim claim = run_cobyla(log, start, budget(), report);
+  Ending ending = run_cobyla(log, start, budget(), report);
   std::vector<double> lowest = find_lowest(log, start, first);
-  std::string fault = find_fault(log, claim, lowest);
-  report.ended = claim.ended;
-  if (!fault.empty() && !claim.is_spent && budget() > 0) {
+  std::string fault = find_fault(log, ending, lowest);
+  report.ended = ending.ended;
+  if (!fault.empty() && !ending.is_spent && budget() > 0) {
     report.ended = "COBYLA not verified: " + fault + "; ";
-    claim = run_augmented_lagrangian(log, lowest, budget(), report);
+    ending = run_augmented_lagrangian(log, lowest, budget(), report);
     lowest = find_lowest(log, start, first);
-    fault = find_fault(log, claim, lowest);
-    report.ended += claim.ended;
+    fault = find_fault(log, ending, lowest);
+    report.ended += ending.ended;
   }
   report.verified = fault.empty();
-  if (!report.verified && fault != claim.ended) report.ended += ", not verified: " + fault;
+  if (!report.verified && fault != ending.ended) report.ended += ", not verified: " + fault;
   report.evaluations = log.observations().size() - first;
   report.lowest = lowest.front();
   report.found_lower =

@@ -9,8 +9,6 @@
 namespace linkstudy::tuning {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 double neighbour_of(const EvaluationLog& log, double value) {
   return value * std::pow(10.0, log.options().neighbourhood);
 }
@@ -69,7 +67,8 @@ std::vector<double> make_climb(double from, double ceiling, double first) {
 
 // Looks above a value that fails at half the step for one that passes at both.
 void climb(EvaluationLog& log, double value) {
-  const double beyond = std::nextafter(log.problem().variables.front().high, kInfinity);
+  const double beyond =
+      std::nextafter(log.problem().variables.front().high, std::numeric_limits<double>::infinity());
   const double failing = find_failing_above(log, value).value_or(beyond);
   // A failing value nearer than the neighbourhood may be noise: look past it.
   const double ceiling = std::min(beyond, std::max(failing, neighbour_of(log, value)));

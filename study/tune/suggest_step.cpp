@@ -12,13 +12,13 @@ namespace {
 
 // Part of the opening step that is suggested, see the header.
 constexpr double kComfort = 0.7;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 // At half the step the smallest error lies 2^(4/3) stiffer: c^3 = A / (2 B h^4).
 const double kStifferAtHalf = std::pow(2.0, 4.0 / 3.0);
 
 std::optional<double> find_best_value(const EvaluationLog& log) {
   std::optional<double> best;
-  double smallest = kInfinity;
+  double smallest = kNoLimit;
   for (const double value : log.base_values()) {
     const double ratio = log.ratio(value, 1.0).value();
     if (ratio < smallest) {
@@ -70,7 +70,7 @@ std::vector<Limit> find_limits(const EvaluationLog& log) {
 
 double interpolate_limit(const std::vector<Limit>& limits, double value) {
   if (limits.empty()) {
-    return kInfinity;
+    return kNoLimit;
   }
   const auto above = std::find_if(limits.begin(), limits.end(),
                                   [&](const Limit& limit) { return limit.value >= value; });
@@ -86,7 +86,7 @@ double interpolate_limit(const std::vector<Limit>& limits, double value) {
 }
 
 double allowed_step(const EvaluationLog& log, const std::vector<ErrorModel>& models, double value) {
-  double step = kInfinity;
+  double step = kNoLimit;
   for (std::size_t i = 0; i < models.size(); ++i) {
     const double left = log.problem().components[i].tolerance - models[i].soft / value;
     if (left <= 0.0) {

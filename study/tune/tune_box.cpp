@@ -14,7 +14,7 @@
 namespace linkstudy::tuning {
 namespace {
 
-constexpr int kMostPasses = 6;
+constexpr int kMostPolishes = 6;
 constexpr std::size_t kStarts = 4;
 constexpr double kWideStep = 0.25;    // of NLopt from the scan, decades
 constexpr double kNarrowStep = 0.03;  // from a match that the proof found
@@ -51,7 +51,7 @@ class BoxTuning {
 
  private:
   void search() {
-    for (int pass = 0; pass < kMostPasses; ++pass) {
+    for (int pass = 0; pass < kMostPolishes; ++pass) {
       point_ = polish_point(log_, settle_lowest(log_, reserve_).value(), reserve_);
       gather_evidence();
       if (settle_lowest(log_, 0).value() != point_ && improves()) continue;

@@ -67,4 +67,9 @@ struct TuningResult {
   std::vector<std::string> notes;         // what else the user should know
 };
 
+// Of a tune of one.
+inline const TunedVariable& variable_of(const TuningResult& result) {
+  return result.problem.variables.front();
+}
+
 }  // namespace linkstudy::tuning

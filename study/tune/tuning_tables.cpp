@@ -9,10 +9,6 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-const TunedVariable& variable_of(const TuningResult& result) {
-  return result.problem.variables.front();
-}
-
 std::int64_t to_count(std::uint64_t number) {
   return static_cast<std::int64_t>(number);
 }

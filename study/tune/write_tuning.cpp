@@ -19,10 +19,6 @@ Json make_number(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
-const TunedVariable& variable_of(const TuningResult& result) {
-  return result.problem.variables.front();
-}
-
 void add_point(std::string& text, const TuningResult& result) {
   for (std::size_t i = 0; i < result.point.size(); ++i) {
     const TunedVariable& variable = result.problem.variables[i];
