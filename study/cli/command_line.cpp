@@ -11,6 +11,7 @@
 #include "core/topology/nearest_name.h"
 #include "study/cli/option_table.h"
 #include "study/cli/verb_table.h"
+#include "study/session/exit_code.h"
 
 namespace linkstudy {
 namespace {
@@ -114,14 +115,16 @@ std::string usage() {
     const bool fits = std::string_view(verb.inputs).size() < 10;
     text += fmt::format("  {:<11}{:<10}{}\n", verb.name, fits ? verb.inputs : "[...]", verb.does);
   }
-  return text +
-         "\n'linkstudy help VERB' lists the options of a verb; 'linkstudy --version'.\n"
-         "'linkstudy describe' lists every key of the input files, 'describe channels' what a run\n"
-         "can tell, 'describe units' how quantities may be written.\n"
-         "A joint of the tree moves along or about its local z; a closure has its axis along the\n"
-         "local x of its frames.\n"
-         "Exit codes: 0 done, 1 internal error, 2 usage or input error, 3 too many cases failed,\n"
-         "4 tuning found nothing or was refuted, 75 interrupted and resumable.\n";
+  text +=
+      "\n'linkstudy help VERB' lists the options of a verb; 'linkstudy --version'.\n"
+      "'linkstudy describe' lists every key of the input files, 'describe channels' what a run\n"
+      "can tell, 'describe units' how quantities may be written.\n"
+      "A joint of the tree moves along or about its local z; a closure has its axis along the\n"
+      "local x of its frames.\n\nExit codes\n";
+  for (const ExitStatus& status : kExitStatuses) {
+    text += fmt::format("  {:<4}{}\n", status.code, status.meaning);
+  }
+  return text;
 }
 
 std::string usage_of(const std::string& name) {

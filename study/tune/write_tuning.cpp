@@ -162,7 +162,9 @@ void add_staircase(std::string& text, const TuningResult& result) {
 }
 
 void add_points(std::string& text, const TuningResult& result) {
-  text += fmt::format("\n{:>14}  {:>15}  {:<16}{:>10}\n", "value", "error/tolerance", "side",
+  const std::size_t width = 14 * result.problem.variables.size();
+  const char* head = result.problem.variables.size() == 1 ? "value" : "values";
+  text += fmt::format("\n{:>{}}  {:>15}  {:<16}{:>10}\n", head, width, "error/tolerance", "side",
                       "evaluation");
   for (const ScanPoint& point : result.points) {
     if (!point.declared) {
@@ -172,9 +174,9 @@ void add_points(std::string& text, const TuningResult& result) {
     const std::string side = point.side == Side::failed && ended
                                  ? std::string(linkstudy::name_of(point.cause))
                                  : std::string(name_of(point.side));
-    const std::string value = point.x.empty() ? fmt::format("{:.6g}", point.value)
-                                              : fmt::format("{:.6g}", fmt::join(point.x, " "));
-    text += fmt::format("{:>14}  {:>15.4g}  {:<16}{:>10}\n", value, point.ratio, side,
+    const std::string value = point.x.empty() ? fmt::format("{:>14.6g}", point.value)
+                                              : fmt::format("{:>14.6g}", fmt::join(point.x, ""));
+    text += fmt::format("{:>{}}  {:>15.4g}  {:<16}{:>10}\n", value, width, point.ratio, side,
                         point.evaluation);
   }
 }

@@ -83,6 +83,26 @@ TEST_F(Lanes, Do_not_lead_a_tune) {
   EXPECT_EQ(packed.out, scalar.out);
 }
 
+// Its searches run side by side and ask together: in an order that no machine decides.
+TEST_F(Lanes, And_ranks_do_not_lead_a_tune_of_two_values) {
+  std::string text = tune_text();
+  const std::string whole = "stiffness\"\nrange = { log = [1e3, 1e7] }\n";
+  const std::size_t at = text.find(whole);
+  ASSERT_NE(at, std::string::npos);
+  text.replace(at, whole.size(),
+               "stiffness.y\"\nrange = { log = [1e3, 1e7] }\n\n[[tune]]\n"
+               "parameter = \"closure.S.sde.stiffness.z\"\nrange = { log = [1e3, 1e7] }\n\n"
+               "[search]\nmax_evaluations = 600\n");
+  write("axes.toml", text);
+  const Ended alone = run("tune axes.toml -o alone --json", "LINKSTUDY_LANES=1");
+  ASSERT_THAT(alone.code, ::testing::AnyOf(0, 4)) << alone.err;
+  EXPECT_THAT(alone.out, HasSubstr("\"C4\""));
+  for (const int ranks : {1, 2, 3}) {
+    const Ended ended = run("tune axes.toml --fresh -o out --json", launch_of(ranks));
+    EXPECT_EQ(ended.out, alone.out) << ranks << " ranks";
+  }
+}
+
 TEST_F(Lanes, Do_not_matter_to_a_study_that_is_continued) {
   const Ended whole = run("study study.toml -o whole");
   const Ended part = run("study study.toml -o out --on-failure abort", "LINKSTUDY_LANES=1");
