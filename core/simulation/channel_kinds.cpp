@@ -181,11 +181,15 @@ std::string describe_channel(const Mechanism& mechanism, const Channel& channel)
   }
 }
 
+bool is_in_group(const std::string& channel, const std::string& group) {
+  return channel == group || channel.starts_with(group + ".");
+}
+
 std::vector<Channel> find_channel_group(const std::vector<Channel>& all, const std::string& group) {
   std::vector<Channel> found = find_channels(all, group);
   if (!found.empty() || group.empty()) return found;
   for (const Channel& c : all) {
-    if (c.name.starts_with(group + ".")) found.push_back(c);
+    if (is_in_group(c.name, group)) found.push_back(c);
   }
   return found;
 }

@@ -32,6 +32,9 @@ std::string pattern_of(const ChannelKind& kind);
 // "turn about the new y".
 std::string describe_channel(const Mechanism& mechanism, const Channel& channel);
 
+// Whether a channel is `group` itself or under that name: "closure.S.force.x" in "closure.S".
+bool is_in_group(const std::string& channel, const std::string& group);
+
 // The channels that find_channels gives, or else everything under a name: "joint.A", "closure.S",
 // "point.tip", "energy".
 std::vector<Channel> find_channel_group(const std::vector<Channel>& all, const std::string& group);

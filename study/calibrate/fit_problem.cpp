@@ -18,6 +18,12 @@ double value_of(const FitParameter& one, double u) {
   return one.is_logarithmic ? one.low * std::exp(u * span_of(one)) : one.low + u * span_of(one);
 }
 
+// What a relative change of a parameter at u is relative to.
+double size_at(const FitParameter& one, double u) {
+  if (one.is_logarithmic) return 1.0;
+  return std::max(std::abs(value_of(one, u)), kNearZero * span_of(one));
+}
+
 }  // namespace
 
 std::vector<double> to_values(const FitProblem& problem, const Vector& u) {
@@ -43,10 +49,7 @@ Vector difference_steps(const FitProblem& problem, const Vector& u, double relat
   Vector steps(u.size());
   for (Eigen::Index i = 0; i < u.size(); ++i) {
     const FitParameter& one = problem.parameters[static_cast<std::size_t>(i)];
-    const double span = span_of(one);
-    const double size =
-        one.is_logarithmic ? 1.0 : std::max(std::abs(value_of(one, u[i])), kNearZero * span);
-    steps[i] = std::min(relative * size / span, 0.1);
+    steps[i] = std::min(relative * size_at(one, u[i]) / span_of(one), 0.1);
   }
   return steps;
 }
@@ -55,10 +58,7 @@ Vector relative_slopes(const FitProblem& problem, const Vector& u) {
   Vector slopes(u.size());
   for (Eigen::Index i = 0; i < u.size(); ++i) {
     const FitParameter& one = problem.parameters[static_cast<std::size_t>(i)];
-    const double span = span_of(one);
-    const double size =
-        one.is_logarithmic ? 1.0 : std::max(std::abs(value_of(one, u[i])), kNearZero * span);
-    slopes[i] = span / size;
+    slopes[i] = span_of(one) / size_at(one, u[i]);
   }
   return slopes;
 }

@@ -12,32 +12,14 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-// Columns from one list of rows.
-template <class Row>
-class ColumnsOf {
- public:
-  ColumnsOf(const char* name, std::vector<Row> rows) : table_{name}, rows_(std::move(rows)) {}
-
-  template <class Field>
-  void add(const std::string& name, const std::string& unit, const char* meaning, Field field) {
-    table_.columns.push_back({name, unit, meaning, "calibration", column_of(rows_, field)});
+// One column a fitted value.
+template <class Row, class Field>
+void add_values(TableOf<Row>& table, const FitProblem& problem, const char* meaning, Field values) {
+  for (std::size_t i = 0; i < problem.parameters.size(); ++i) {
+    table.add(problem.parameters[i].name, problem.parameters[i].unit, meaning,
+              [&, i](const Row& row) { return values(row).at(i); });
   }
-
-  // One column a fitted value.
-  template <class Field>
-  void add_values(const FitProblem& problem, const char* meaning, Field values) {
-    for (std::size_t i = 0; i < problem.parameters.size(); ++i) {
-      add(problem.parameters[i].name, problem.parameters[i].unit, meaning,
-          [&, i](const Row& row) { return values(row).at(i); });
-    }
-  }
-
-  Table take() { return std::move(table_); }
-
- private:
-  Table table_;
-  std::vector<Row> rows_;
-};
+}
 
 struct ValueRow {
   std::string name;
@@ -79,7 +61,7 @@ std::string note_of(const ValueRow& row) {
 
 Table estimates_table(const FitReport& report) {
   using Row = ValueRow;
-  ColumnsOf table("estimates", value_rows(report));
+  TableOf table("estimates", "calibration", value_rows(report));
   table.add("parameter", "", "path in the model", [](const Row& r) { return r.name; });
   table.add("value", "", "best fit", [](const Row& r) { return r.estimate.value; });
   table.add("low", "", "lower end of the interval, by profile",
@@ -112,7 +94,7 @@ Table correlations_table(const FitResult& fit) {
                       fit.correlation(i, k)});
     }
   }
-  ColumnsOf table("correlations", std::move(rows));
+  TableOf table("correlations", "calibration", std::move(rows));
   table.add("parameter", "", "", [](const PairRow& r) { return r.one; });
   table.add("with", "", "", [](const PairRow& r) { return r.other; });
   table.add("correlation", "", "of the estimates, by the linear model",
@@ -133,7 +115,7 @@ Table data_table(const FitReport& report) {
     rows.push_back({&report.data.at(i), &fit.problem.series[i], fit.figures.series[i]});
   }
   using Row = SeriesRow;
-  ColumnsOf table("data", std::move(rows));
+  TableOf table("data", "calibration", std::move(rows));
   table.add("experiment", "", "", [](const Row& r) { return r.data->experiment; });
   table.add("channel", "", "", [](const Row& r) { return r.data->channel; });
   table.add("samples", "", "that count",
@@ -166,7 +148,7 @@ Table starts_table(const FitResult& fit) {
     return std::isfinite(sum) ? sum : std::numeric_limits<double>::infinity();
   });
   using Row = WaterfallRow;
-  ColumnsOf table("starts", std::move(rows));
+  TableOf table("starts", "calibration", std::move(rows));
   const auto finite = [](double sum) { return std::isfinite(sum) ? sum : kNone; };
   table.add("start", "", "its number; 0 is the declared one", [](const Row& r) { return r.start; });
   table.add("sum_before", "", "sum of squares where it begins",
@@ -179,20 +161,20 @@ Table starts_table(const FitResult& fit) {
             [](const Row& r) { return std::string(name_of(r.report->end)); });
   table.add("best", "", "it ends at the best sum",
             [](const Row& r) { return std::string(r.report->is_best ? "yes" : "no"); });
-  table.add_values(fit.problem, "where it ends",
-                   [](const Row& r) -> const std::vector<double>& { return r.report->to; });
+  add_values(table, fit.problem, "where it ends",
+             [](const Row& r) -> const std::vector<double>& { return r.report->to; });
   return table.take();
 }
 
 Table profiles_table(const FitResult& fit) {
   using Row = ProfileRow;
-  ColumnsOf table("profiles", fit.profiles);
+  TableOf table("profiles", "calibration", fit.profiles);
   table.add("profile", "", "parameter that is held",
             [&](const Row& r) { return fit.problem.parameters[r.parameter].name; });
   table.add("rise", "", "of the sum of squares, in units of that at the end of an interval",
             [](const Row& r) { return r.rise; });
-  table.add_values(fit.problem, "best with it held",
-                   [](const Row& r) -> const std::vector<double>& { return r.others; });
+  add_values(table, fit.problem, "best with it held",
+             [](const Row& r) -> const std::vector<double>& { return r.others; });
   return table.take();
 }
 
@@ -212,7 +194,7 @@ Table residuals_table(const FitReport& report) {
     }
   }
   using Row = SampleRow;
-  ColumnsOf table("residuals", std::move(rows));
+  TableOf table("residuals", "calibration", std::move(rows));
   table.add("experiment", "", "", [](const Row& r) { return r.data->experiment; });
   table.add("channel", "", "", [](const Row& r) { return r.data->channel; });
   table.add("time", "s", "of the run", [](const Row& r) { return r.data->times[r.i]; });

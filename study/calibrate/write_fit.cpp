@@ -5,15 +5,12 @@
 #include <nlohmann/json.hpp>
 
 #include "study/calibrate/fit_report.h"
+#include "study/record/json_number.h"
 
 namespace linkstudy::calibration {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json json_number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
 
 Json json_interval(const Interval& interval) {
   return Json::array({json_number(interval.low), json_number(interval.high)});

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "study/config/study_checks.h"
+#include "study/config/common_fields.h"
 #include "study/config/unit.h"
 
 namespace linkstudy {
@@ -12,19 +12,14 @@ using enum KeyType;
 
 // Their values are of the units of the model: calibrate_reader.cpp reads them.
 Fields<StudyInput> parameter_fields() {
-  Fields<StudyInput> parameter, range;
+  Fields<StudyInput> parameter;
   parameter.read("path", {.type = text,
                           .meaning = "path in the model, such as closure.S.sde.stiffness; * for a "
                                      "name: the same value at every place",
                           .required = true});
-  const auto add_range = [&](const char* key, const char* meaning) {
-    range.read(key, {.type = scalars, .meaning = meaning, .required = true, .group = "range"});
-    range.back().counts.push_back(2);
-  };
-  add_range("log", "[lowest, highest], fitted by its logarithm");
-  add_range("lin", "[lowest, highest]");
-  parameter.table("range", {.meaning = "bounds of the fit", .required = true, .group = "role"},
-                  std::move(range));
+  parameter.table(
+      "range", {.meaning = "bounds of the fit", .required = true, .group = "role"},
+      range_fields<StudyInput>("[lowest, highest], fitted by its logarithm", "[lowest, highest]"));
   parameter.read(
       "fixed",
       {.type = scalar, .meaning = "value that is not fitted", .required = true, .group = "role"});
@@ -114,16 +109,10 @@ Fields<LoadCaseInput> experiment_fields() {
                [](MeasuredInput& to, Tree& value, const Reading&) { to.file_at = value.at; });
   add_columns(measured);
   add_signals(measured);
-  measured.read("window",
-                {.type = numbers,
-                 .meaning = "first and last instant of the data that counts; default: all (of a "
-                            "reference run: all but its start)",
-                 .unit = "s",
-                 .range = kNotNegative,
-                 .counts = {2}},
-                [](MeasuredInput& to, Tree& value, const Reading& reading) {
-                  to.window = read_window(value, reading);
-                });
+  add_window(
+      measured,
+      "first and last instant of the data that counts; default: all (of a reference run: all "
+      "but its start)");
   add_weights(measured);
   const auto part = [](LoadCaseInput& of) -> MeasuredInput& {
     if (!of.measured) of.measured.emplace();

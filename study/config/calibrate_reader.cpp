@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "core/simulation/channel_kinds.h"
 #include "study/config/named_parameter.h"
 #include "study/config/value_list.h"
 
@@ -137,15 +138,11 @@ class CalibratedReader {
   std::vector<std::string> wrong_;  // paths of entries that were reported
 };
 
-bool is_part_of(const std::string& channel, const std::string& signal) {
-  return channel == signal || channel.starts_with(signal + ".");
-}
-
 void check_sigma(const MeasuredInput& measured, Diagnostics& diagnostics) {
   if (measured.columns.size() < 2 && measured.signals.empty()) return;  // said already
   for (const SigmaInput& sigma : measured.sigma) {
     const auto is_meant = [&](const auto& name) {
-      return is_part_of(name, sigma.signal) || is_part_of(sigma.signal, name);
+      return is_in_group(name, sigma.signal) || is_in_group(sigma.signal, name);
     };
     bool is_known = false;
     for (const WantedColumn& one : measured.columns) is_known = is_known || is_meant(one.channel);

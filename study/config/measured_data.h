@@ -1,9 +1,7 @@
 // Measured histories from a CSV file: a line of heads, then a line of numbers for every instant.
 //   - heads may end in a unit in brackets, "Fx [kN]"; numbers are converted to SI units
-//   - cells are separated by what separates the heads: tab, else ';', else ','; quotes as in RFC
-//   4180
-//   - lines that begin with '#', and empty ones, are left out (so is the unit line of
-//     `simulate --csv`)
+//   - cells are separated by what separates the heads: tab, else ';', else ','; quotes: RFC 4180
+//   - lines that begin with '#', and empty ones, are left out, as the units of `simulate --csv`
 //   - an empty cell or NaN is a missing sample; instants must be there, and rise
 #pragma once
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "study/config/calibrate_keys.h"
+#include "study/config/common_fields.h"
 #include "study/config/model_keys.h"
 #include "study/config/study_checks.h"
 
@@ -12,6 +13,8 @@ namespace {
 
 using enum KeyType;
 using Study = StudyInput;
+
+constexpr const char* kWholeRun = "first and last time that count; default: the whole run";
 
 KeyRow set_row(const char* of) {
   return {.meaning = std::string("model values of ") + of +
@@ -32,19 +35,6 @@ void add_base(Fields<Study>& study) {
   Fields<Study> base;
   base.add("set", &Study::base_set, set_row("every case"));
   study.table("base", {.meaning = "the run that is varied", .standard = "{}"}, std::move(base));
-}
-
-template <class Record>
-void add_window(Fields<Record>& record) {
-  record.read("window",
-              {.type = numbers,
-               .meaning = "first and last time that count; default: the whole run",
-               .unit = "s",
-               .range = kNotNegative,
-               .counts = {2}},
-              [](Record& to, Tree& value, const Reading& reading) {
-                to.window = read_window(value, reading);
-              });
 }
 
 template <class Record>
@@ -84,7 +74,7 @@ Fields<MatchInput> match_fields(FileKind kind) {
     tolerance.derive = [](const Tree&) { return std::optional<Tree>(); };
   }
   match.add("tolerance", &MatchInput::tolerance, std::move(tolerance));
-  add_window(match);
+  add_window(match, kWholeRun);
   match.add("floor", &MatchInput::floor,
             {.meaning = "a component whose reference stays under this fraction of the vector's is "
                         "nearly zero and is scaled by that",
@@ -100,7 +90,7 @@ Fields<ResponseInput> response_fields() {
   add_signal(response, "channel or vector (linkstudy describe channels)");
   response.add("reduce", &ResponseInput::reduce,
                {.meaning = "what is kept of its course", .required = true});
-  add_window(response);
+  add_window(response, kWholeRun);
   return response;
 }
 
@@ -190,15 +180,11 @@ void add_vary(Fields<Study>& study) {
 }
 
 void add_tune(Fields<Study>& study) {
-  Fields<Study> tune, range;
+  Fields<Study> tune;
   add_parameter(tune);
-  const auto add_range = [&](const char* key, const char* meaning) {
-    range.read(key, {.type = scalars, .meaning = meaning, .required = true, .group = "range"});
-    range.back().counts.push_back(2);
-  };
-  add_range("log", "[lowest, highest], searched in decades");
-  add_range("lin", "[lowest, highest], searched linearly");
-  tune.table("range", {.meaning = "where to search", .required = true}, std::move(range));
+  tune.table("range", {.meaning = "where to search", .required = true},
+             range_fields<Study>("[lowest, highest], searched in decades",
+                                 "[lowest, highest], searched linearly"));
   study.tables("tune", {.meaning = "values whose lowest is wanted", .required = true},
                std::move(tune));
   Fields<SearchOptions> search;
@@ -253,7 +239,7 @@ void add_refine(Fields<Study>& study) {
              "channel, vector or group; its time histories are compared with those of the "
              "next level at the instants that all levels keep");
   series.add("norm", &SeriesInput::norm, {.meaning = "of a difference"});
-  add_window(series);
+  add_window(series, kWholeRun);
   study.tables("series", &Study::series, {.meaning = "time histories that are refined"},
                std::move(series));
   study.add("wanted_error", &Study::wanted_error,

@@ -21,30 +21,8 @@ std::string behaviour_word(const RefinementRow& row) {
   return row.behaviour == Behaviour::untold ? std::string() : std::string(name_of(row.behaviour));
 }
 
-template <class Row>
-class Columns {
- public:
-  Columns(std::string title, const std::vector<Row>& rows)
-      : table_{std::move(title)}, rows_(rows) {}
-
-  template <class Field>
-  Column& add(const char* name, std::string unit, const char* meaning, Field field,
-              const char* format = "{:.6g}") {
-    table_.columns.push_back(
-        {name, std::move(unit), meaning, "convergence", column_of(rows_, field)});
-    table_.columns.back().format = format;
-    return table_.columns.back();
-  }
-
-  Table take() { return std::move(table_); }
-
- private:
-  Table table_;
-  const std::vector<Row>& rows_;
-};
-
 // What is told of a level, after its size.
-void add_level_columns(Columns<LevelRow>& columns, const std::string& unit) {
+void add_level_columns(TableOf<LevelRow>& columns, const std::string& unit) {
   using Row = LevelRow;
   columns.add(
       "steps", "", "accepted steps", [](const Row& r) { return r.source().steps; }, "{:.0f}");
@@ -76,7 +54,7 @@ void add_level_columns(Columns<LevelRow>& columns, const std::string& unit) {
       [](const Row& r) { return r.judged().error_order; }, "{:.3f}");
 }
 
-void add_source_columns(Columns<LevelRow>& columns) {
+void add_source_columns(TableOf<LevelRow>& columns) {
   columns.add("evaluation", "", "that the level is",
               [](const LevelRow& r) { return static_cast<std::int64_t>(r.source().evaluation); });
   columns.add(
@@ -91,7 +69,7 @@ Table make_level_table(const Convergence& result) {
   for (const QuantityLadder& ladder : result.ladders) {
     for (std::size_t i = 0; i < ladder.levels.size(); ++i) rows.push_back({&ladder, i});
   }
-  Columns<LevelRow> columns("convergence", rows);
+  TableOf columns("convergence", "convergence", std::move(rows));
   columns.add("quantity", "", "what is refined",
               [](const LevelRow& r) { return r.ladder->quantity; });
   columns.add("unit", "", "of value, difference, extrapolated and error",
@@ -109,7 +87,7 @@ std::string remarks_of(const QuantityLadder& ladder) {
   return fmt::format("{}", fmt::join(ladder.refinement.remarks, "; "));
 }
 
-void add_order_columns(Columns<QuantityLadder>& columns) {
+void add_order_columns(TableOf<QuantityLadder>& columns) {
   using Row = QuantityLadder;
   columns.add("class", "", "of the finest levels above the floor",
               [](const Row& r) { return std::string(name_of(r.refinement.behaviour)); });
@@ -141,7 +119,7 @@ void add_order_columns(Columns<QuantityLadder>& columns) {
       "{:.2g}");
 }
 
-void add_ladder_names(Columns<QuantityLadder>& columns) {
+void add_ladder_names(TableOf<QuantityLadder>& columns) {
   using Row = QuantityLadder;
   columns.add("quantity", "", "what is refined", [](const Row& r) { return r.quantity; });
   columns.add("unit", "", "of extrapolated and reference", [](const Row& r) { return r.unit; });
@@ -151,7 +129,7 @@ void add_ladder_names(Columns<QuantityLadder>& columns) {
 
 Table make_all_orders(const Convergence& result) {
   using Row = QuantityLadder;
-  Columns<Row> columns("orders", result.ladders);
+  TableOf columns("orders", "convergence", result.ladders);
   add_ladder_names(columns);
   add_order_columns(columns);
   columns.add("needed_by", "", "levels: between two; coarsest: every level is enough",
@@ -220,10 +198,9 @@ Table make_ladder_table(const QuantityLadder& ladder) {
   for (std::size_t i = 0; i < ladder.levels.size(); ++i) rows.push_back({&ladder, i});
   const std::string unit = ladder.unit.empty() ? "" : fmt::format(" in {}", ladder.unit);
   const std::string at = ladder.at.empty() ? "" : ", " + ladder.at;
-  Columns<LevelRow> columns(fmt::format("{}{}{}", ladder.quantity, unit, at), rows);
-  Column& size = columns.add(ladder.over.c_str(), ladder.over_unit, "refined value",
-                             [](const LevelRow& r) { return r.source().size; });
-  size.name = ladder.over;
+  TableOf columns(fmt::format("{}{}{}", ladder.quantity, unit, at), "convergence", std::move(rows));
+  columns.add(ladder.over, ladder.over_unit, "refined value",
+              [](const LevelRow& r) { return r.source().size; });
   add_level_columns(columns, "");
   add_source_columns(columns);
   Table table = columns.take();
@@ -238,7 +215,7 @@ Table make_ladder_table(const QuantityLadder& ladder) {
 }
 
 Table make_order_table(const Convergence& result) {
-  Columns<QuantityLadder> columns("", result.ladders);
+  TableOf columns("", "convergence", result.ladders);
   add_ladder_names(columns);
   add_order_columns(columns);
   Table table = columns.take();

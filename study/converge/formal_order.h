@@ -1,8 +1,7 @@
 // The order that a refinement should show, as the method has it:
-//   simulation.step     4 of rk4, but 2 of what is reduced from samples: extremes, which lie
-//   between
-//                       them, and means by the trapezoidal rule; none of integrators that choose
-//                       their steps themselves
+//   simulation.step     4 of rk4, but 2 of what is reduced from samples: extremes between them,
+//                       and means by the trapezoidal rule; none of integrators that choose their
+//                       steps themselves
 //   a stiffness         1: what is left of a stiff spring is its load over its stiffness
 //   segments            2: rigid finite elements lump mass and bending
 // NaN where none is known.

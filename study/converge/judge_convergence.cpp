@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/simulation/channel_kinds.h"
 #include "study/config/precedence.h"
 #include "study/config/value_path.h"
 #include "study/converge/formal_order.h"
@@ -204,11 +205,6 @@ class Judging {
     ladder.needed = h_of_size(input_.refine[course.axis].limit, needed.h);
   }
 
-  // The channels of a [[series]], which may be a group.
-  static bool belongs(const std::string& channel, const std::string& signal) {
-    return channel == signal || channel.starts_with(signal + ".");
-  }
-
   static History history_of(const std::vector<Trace>* traces, const std::string& channel) {
     if (traces == nullptr) return {};
     const auto time = std::ranges::find(*traces, "time", &Trace::name);
@@ -227,7 +223,7 @@ class Judging {
       const std::size_t first = result_.ladders.size();
       std::vector<SeriesLadder> found;
       for (const Channel& channel : evaluator_.signals().trace) {
-        if (!belongs(channel.name, series.signal)) continue;
+        if (!is_in_group(channel.name, series.signal)) continue;
         QuantityLadder ladder = begin_ladder(course, name);
         ladder.quantity = name.empty() ? channel.name : name + "." + channel.name;
         ladder.unit = channel.unit;

@@ -12,9 +12,8 @@
 //   asymptotic ratio  GCI32 / (r21^p GCI21), 1 where all three are asymptotic
 // Fs = 3 and q = the formal order where p exceeds twice the formal one, and where there are two
 // levels only, which show no order. Of the whole ladder:
-//   noise        differences of changing sign that do not fall: what refines is drowned by
-//   something
-//                else
+//   noise        differences of changing sign that do not fall: something else than the refined
+//                value decides
 #pragma once
 
 #include <limits>

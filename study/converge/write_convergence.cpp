@@ -1,33 +1,30 @@
 #include "study/converge/write_convergence.h"
 
-#include <cmath>
 #include <nlohmann/json.hpp>
+
+#include "study/record/json_number.h"
 
 namespace linkstudy::convergence {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
 Json row_of(const QuantityLadder& ladder, std::size_t i) {
   const RefinementRow& row = ladder.refinement.rows[i];
   const LevelSource& source = ladder.levels[i];
   return {{"size", source.size},
-          {"h", number(row.h)},
-          {"steps", number(source.steps)},
-          {"value", number(row.value)},
-          {"difference", number(row.change)},
-          {"ratio", number(row.ratio)},
+          {"h", json_number(row.h)},
+          {"steps", json_number(source.steps)},
+          {"value", json_number(row.value)},
+          {"difference", json_number(row.change)},
+          {"ratio", json_number(row.ratio)},
           {"class", name_of(row.behaviour)},
-          {"order", number(row.order)},
-          {"extrapolated", number(row.extrapolated)},
-          {"gci_percent", number(100.0 * row.gci)},
-          {"asymptotic_ratio", number(row.asymptotic_ratio)},
-          {"error", number(row.error)},
-          {"error_order", number(row.error_order)},
+          {"order", json_number(row.order)},
+          {"extrapolated", json_number(row.extrapolated)},
+          {"gci_percent", json_number(100.0 * row.gci)},
+          {"asymptotic_ratio", json_number(row.asymptotic_ratio)},
+          {"error", json_number(row.error)},
+          {"error_order", json_number(row.error_order)},
           {"is_floor", row.is_floor},
           {"evaluation", source.evaluation},
           {"status", name_of(source.status)}};
@@ -35,9 +32,9 @@ Json row_of(const QuantityLadder& ladder, std::size_t i) {
 
 Json fit_of(const Refinement& refinement) {
   if (!refinement.fit) return nullptr;
-  return {{"order", number(refinement.fit->order)},
-          {"extrapolated", number(refinement.fit->limit)},
-          {"deviation", number(refinement.fit->deviation)},
+  return {{"order", json_number(refinement.fit->order)},
+          {"extrapolated", json_number(refinement.fit->limit)},
+          {"deviation", json_number(refinement.fit->deviation)},
           {"levels", refinement.fit->count}};
 }
 
@@ -51,17 +48,17 @@ Json table_of(const QuantityLadder& ladder) {
           {"over", ladder.over},
           {"at", ladder.at},
           {"class", name_of(judged.behaviour)},
-          {"observed_order", number(judged.order)},
-          {"formal_order", number(judged.formal_order)},
+          {"observed_order", json_number(judged.order)},
+          {"formal_order", json_number(judged.formal_order)},
           {"fit", fit_of(judged)},
-          {"difference_order", number(judged.difference_order)},
-          {"extrapolated", number(judged.extrapolated)},
-          {"gci_percent", number(100.0 * judged.gci)},
-          {"safety_factor", number(judged.safety_factor)},
-          {"reference", number(ladder.reference)},
-          {"difference", number(judged.extrapolated - ladder.reference)},
-          {"wanted", number(ladder.wanted)},
-          {"needed", number(ladder.needed)},
+          {"difference_order", json_number(judged.difference_order)},
+          {"extrapolated", json_number(judged.extrapolated)},
+          {"gci_percent", json_number(100.0 * judged.gci)},
+          {"safety_factor", json_number(judged.safety_factor)},
+          {"reference", json_number(ladder.reference)},
+          {"difference", json_number(judged.extrapolated - ladder.reference)},
+          {"wanted", json_number(ladder.wanted)},
+          {"needed", json_number(ladder.needed)},
           {"needed_by", name_of(ladder.needed_by)},
           {"remarks", judged.remarks},
           {"rows", std::move(rows)}};
@@ -69,12 +66,12 @@ Json table_of(const QuantityLadder& ladder) {
 
 Json needed_of(const NeededValue& all) {
   return {{"parameter", all.path},
-          {"needed", number(all.needed)},
+          {"needed", json_number(all.needed)},
           {"needed_by", name_of(all.by)},
           {"quantity", all.quantity},
-          {"wanted", number(all.wanted)},
-          {"model", number(all.own)},
-          {"fineness", number(all.fineness)},
+          {"wanted", json_number(all.wanted)},
+          {"model", json_number(all.own)},
+          {"fineness", json_number(all.fineness)},
           {"unknown", all.unknown}};
 }
 

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "core/kinematics/three_turns.h"
+#include "study/record/json_number.h"
 #include "study/report/console.h"
 
 namespace linkstudy {
@@ -210,10 +210,6 @@ std::string loop_text(const LoopResult& r) {
                      r.proper.conditioning, r.least_conditioning);
 }
 
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
 Json singular_json(const KinematicsResult& result) {
   Json all = Json::array();
   for (const SingularPosition& p : result.cycle.singular) {
@@ -227,7 +223,7 @@ Json singular_json(const KinematicsResult& result) {
                    {"position", p.drive[0]},
                    {"drives", at},
                    {"time", p.time},
-                   {"quality", number(p.quality)},
+                   {"quality", json_number(p.quality)},
                    {"dependent", p.ranks.dependent},
                    {"h", p.ranks.h},
                    {"h_R", p.ranks.h_r},
@@ -246,8 +242,8 @@ Json loops_json(const KinematicsResult& result) {
     all.push_back({{"cut", cut_of(r.loop)},
                    {"joints", r.loop.joints},
                    {"elements", elements},
-                   {"conditioning", number(r.proper.conditioning)},
-                   {"least_conditioning", number(r.least_conditioning)}});
+                   {"conditioning", json_number(r.proper.conditioning)},
+                   {"least_conditioning", json_number(r.least_conditioning)}});
   }
   return all;
 }

@@ -51,7 +51,7 @@ bool fits_unit(const MeasuredChannel& measured, const Channel& channel, Diagnost
 const SigmaInput* find_sigma(const MeasuredInput& input, const std::string& channel) {
   const SigmaInput* best = nullptr;
   for (const SigmaInput& one : input.sigma) {
-    const bool is_meant = channel == one.signal || channel.starts_with(one.signal + ".");
+    const bool is_meant = is_in_group(channel, one.signal);
     if (is_meant && (best == nullptr || one.signal.size() > best->signal.size())) best = &one;
   }
   return best;
@@ -122,9 +122,8 @@ MeasuredData to_measured_data(const MeasuredInput& input, const std::vector<Trac
   const std::size_t skipped = input.window ? 0 : 1;
   data.times.erase(data.times.begin(), data.times.begin() + static_cast<std::ptrdiff_t>(skipped));
   for (const Trace& trace : traces) {
-    const bool is_asked = std::ranges::any_of(input.signals, [&](const TraceInput& one) {
-      return trace.name == one.signal || trace.name.starts_with(one.signal + ".");
-    });
+    const bool is_asked = std::ranges::any_of(
+        input.signals, [&](const TraceInput& one) { return is_in_group(trace.name, one.signal); });
     if (!is_asked) continue;
     MeasuredChannel channel{trace.name, {}, input.signals.front().at, trace.values};
     channel.values.erase(channel.values.begin(),

@@ -95,4 +95,32 @@ auto column_of(const std::vector<Row>& rows, Field field) {
   return values;
 }
 
+// A table of one list of rows, column by column.
+template <class Row>
+class TableOf {
+ public:
+  // `role`: of all columns.
+  TableOf(std::string name, std::string role, std::vector<Row> rows)
+      : table_{std::move(name)}, role_(std::move(role)), rows_(std::move(rows)) {}
+
+  template <class Field>
+  void add(std::string name, std::string unit, std::string meaning, Field field,
+           const char* format = "{:.6g}") {
+    table_.columns.push_back({std::move(name),
+                              std::move(unit),
+                              std::move(meaning),
+                              role_,
+                              column_of(rows_, field),
+                              {},
+                              format});
+  }
+
+  Table take() { return std::move(table_); }
+
+ private:
+  Table table_;
+  std::string role_;
+  std::vector<Row> rows_;
+};
+
 }  // namespace linkstudy

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "study/record/json_number.h"
 #include "study/report/console.h"
 
 namespace linkstudy {
@@ -81,10 +82,6 @@ std::string equilibrium_lines(const Preparation& preparation) {
                                                      fmt::join(joints, ", ")));
 }
 
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
 Json equilibrium_json(const Preparation& preparation) {
   const StaticsReport& s = *preparation.statics;
   return {
@@ -92,12 +89,13 @@ Json equilibrium_json(const Preparation& preparation) {
       {"stability", kStability[static_cast<int>(s.stability)]},
       {"free_directions", s.directions},
       {"without_stiffness", s.neutral},
-      {"smallest_stiffness", s.directions > s.neutral ? number(s.smallest_beyond) : Json(nullptr)},
+      {"smallest_stiffness",
+       s.directions > s.neutral ? json_number(s.smallest_beyond) : Json(nullptr)},
       {"stiffness_unit", stiffness_unit(s)},
-      {"stiffness_extent", s.unit == StiffnessUnit::mixed ? number(s.extent) : Json(nullptr)},
-      {"force_residual", number(s.force_residual)},
-      {"closure_residual", number(s.closure_residual)},
-      {"displacement", number(s.displacement)},
+      {"stiffness_extent", s.unit == StiffnessUnit::mixed ? json_number(s.extent) : Json(nullptr)},
+      {"force_residual", json_number(s.force_residual)},
+      {"closure_residual", json_number(s.closure_residual)},
+      {"displacement", json_number(s.displacement)},
       {"iterations", s.iterations},
       {"friction_left_out", joints_with_friction(preparation.model.mechanism)}};
 }
@@ -114,16 +112,16 @@ Json outcome_object(const Preparation& preparation, const SimulationOutcome* out
   return {{"status", cause == Cause::ok ? "done" : "failed"},
           {"cause", name_of(cause)},
           {"message", ran ? outcome->message : preparation.message},
-          {"end_time", number(ran ? outcome->end_time : 0.0)},
+          {"end_time", json_number(ran ? outcome->end_time : 0.0)},
           {"steps", ran ? outcome->steps : 0},
           {"rejected", ran ? outcome->rejected : 0},
           {"evaluations", ran ? outcome->evaluations : 0},
           {"contacts", ran ? outcome->contacts : 0},
           {"least_contact_steps", ran ? outcome->least_contact_steps : 0},
-          {"drift_max", number(ran ? outcome->drift_max : nan)},
-          {"energy_residual_max", number(ran ? outcome->energy_residual_max : nan)},
-          {"step_limit", number(limit.seconds)},
-          {"omega_max", number(limit.omega_max)},
+          {"drift_max", json_number(ran ? outcome->drift_max : nan)},
+          {"energy_residual_max", json_number(ran ? outcome->energy_residual_max : nan)},
+          {"step_limit", json_number(limit.seconds)},
+          {"omega_max", json_number(limit.omega_max)},
           {"wall_s", wall_s}};
 }
 
@@ -262,7 +260,7 @@ std::string statics_json(const Preparation& preparation, const std::vector<Stati
   json["equilibrium"] = equilibrium_json(preparation);
   json["values"] = json["units"] = Json::object();
   for (const StaticValue& value : values) {
-    json["values"][value.name] = number(value.value);
+    json["values"][value.name] = json_number(value.value);
     json["units"][value.name] = value.unit;
   }
   return text_of(json);

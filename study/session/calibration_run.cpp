@@ -78,6 +78,8 @@ FitReport run_calibration(StudySession& session) {
     add_others(input, session.record().evaluations().at(report.fit.evaluation), report);
   }
   add_data(evaluator, report);
+  session.record().set_answer(AnswerKind::calibration, calibration::write_json(report, ""),
+                              calibration::make_tables(report));
   return report;
 }
 

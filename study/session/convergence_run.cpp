@@ -1,7 +1,5 @@
 #include "study/session/convergence_run.h"
 
-#include <algorithm>
-
 #include "study/converge/convergence_tables.h"
 #include "study/converge/judge_convergence.h"
 #include "study/converge/write_convergence.h"
@@ -13,11 +11,8 @@ convergence::Convergence run_convergence(StudySession& session) {
   const Evaluator& evaluator = session.evaluator();
   session.evaluate(points_of(evaluator.input()));
   const StudyRecord& record = session.record();
-  const std::vector<TraceSet>& traces = record.results().traces;
   const auto find_histories = [&](std::uint64_t id, const std::string& load_case) {
-    const std::string name = trace_name(id, load_case);
-    const auto found = std::ranges::find(traces, name, &TraceSet::name);
-    return found == traces.end() ? nullptr : &found->traces;
+    return find_traces(record.results(), id, load_case);
   };
   convergence::Convergence result =
       convergence::judge_convergence(evaluator, record.evaluations(), find_histories);

@@ -59,10 +59,18 @@ const std::string& text_named(const std::vector<NamedText>& texts, const std::st
   return std::ranges::find(texts, name, &NamedText::name)->text;
 }
 
-}  // namespace
-
+// "evaluation_12_fast"
 std::string trace_name(std::uint64_t evaluation, const std::string& load_case) {
   return with_case(fmt::format("evaluation_{}", evaluation), load_case);
+}
+
+}  // namespace
+
+const std::vector<Trace>* find_traces(const StudyResults& results, std::uint64_t evaluation,
+                                      const std::string& load_case) {
+  const auto found =
+      std::ranges::find(results.traces, trace_name(evaluation, load_case), &TraceSet::name);
+  return found == results.traces.end() ? nullptr : &found->traces;
 }
 
 std::string slug_of(const std::string& name) {

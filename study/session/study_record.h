@@ -16,8 +16,9 @@ namespace linkstudy {
 // A name as part of a path: "Lowest stiffness of RSRRP" -> "lowest-stiffness-of-rsrrp".
 std::string slug_of(const std::string& name);
 
-// What the histories of an evaluation in a load case are called: "evaluation_12_fast".
-std::string trace_name(std::uint64_t evaluation, const std::string& load_case);
+// Histories of an evaluation in a load case, or null.
+const std::vector<Trace>* find_traces(const StudyResults& results, std::uint64_t evaluation,
+                                      const std::string& load_case);
 
 struct StudyIdentity {
   StudyDescription description;

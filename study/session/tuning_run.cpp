@@ -3,6 +3,10 @@
 #include <utility>
 
 #include "study/session/study_points.h"
+#include "study/tune/tune.h"
+#include "study/tune/tuning_setup.h"
+#include "study/tune/tuning_tables.h"
+#include "study/tune/write_tuning.h"
 
 namespace linkstudy {
 
@@ -31,8 +35,9 @@ std::vector<Answer> TuningRun::evaluate(const std::vector<Request>& requests) {
   }
   source_.evaluate(points);
   std::vector<Answer> answers;
-  for (const Point& point : points)
+  for (const Point& point : points) {
     answers.push_back(to_answer(evaluator_, source_.find(point.id)));
+  }
   return answers;
 }
 
@@ -50,6 +55,17 @@ Answer to_answer(const Evaluator& evaluator, const Evaluation& evaluation) {
     answer.errors.push_back(evaluation.responses.at(error.response));
   }
   return answer;
+}
+
+tuning::TuningResult run_tuning(StudySession& session) {
+  const Evaluator& evaluator = session.evaluator();
+  TuningRun run(session);
+  tuning::TuningResult result =
+      tuning::tune(make_tuning_problem(evaluator), make_tuning_options(evaluator.input()),
+                   [&](const auto& requests) { return run.evaluate(requests); });
+  session.record().set_answer(AnswerKind::tuning, tuning::write_json(result, ""),
+                              tuning::make_tables(result));
+  return result;
 }
 
 }  // namespace linkstudy

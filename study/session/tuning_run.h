@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "study/session/session.h"
-#include "study/tune/tuning_problem.h"
+#include "study/tune/tuning_result.h"
 
 namespace linkstudy {
 
@@ -33,5 +33,8 @@ class TuningRun {
 };
 
 tuning::Answer to_answer(const Evaluator& evaluator, const Evaluation& evaluation);
+
+// The search; its answer is among the results. Throws as StudySession::evaluate does.
+tuning::TuningResult run_tuning(StudySession& session);
 
 }  // namespace linkstudy

@@ -225,9 +225,7 @@ class Verifier {
       for (const CaseTraces& set : evaluations_.at(id).traces) {
         if (set.load_case == load_case) return &set.traces;
       }
-      const std::string name = trace_name(id, load_case);
-      const auto found = std::ranges::find(results_.traces, name, &TraceSet::name);
-      return found == results_.traces.end() ? nullptr : &found->traces;
+      return find_traces(results_, id, load_case);
     };
     return nlohmann::json::parse(convergence::write_json(
         convergence::judge_convergence(*evaluator_, evaluations_, find_histories), ""));

@@ -27,8 +27,7 @@ class BoundSearch {
       : log_(log),
         variables_(log.problem().variables),
         reserve_(reserve),
-        objective_(sum_of(position_of(point))),
-        limit_(objective_ - log.options().gap),
+        limit_(sum_of(position_of(point)) - log.options().gap),
         mu_(log.options().mu) {
     for (const TunedVariable& variable : variables_) {
       root_.a.push_back(std::log10(variable.low));
@@ -114,10 +113,8 @@ class BoundSearch {
 
   bool has_lower_match() const {
     return std::ranges::any_of(log_.observations(), [&](const Observation& seen) {
-      const bool is_lower =
-          seen.request.step_factor == 1.0 && compute_objective(seen.request.x) < limit_;
-      return is_lower && compute_ratio(seen.answer, log_.problem().components) <= 1.0 &&
-             log_.acceptance(seen.request.x) != Acceptance::rejected;
+      return seen.request.step_factor == 1.0 && compute_objective(seen.request.x) < limit_ &&
+             log_.is_candidate(seen.request.x);
     });
   }
 
@@ -253,7 +250,6 @@ class BoundSearch {
   EvaluationLog& log_;
   const std::vector<TunedVariable>& variables_;
   std::size_t reserve_;
-  double objective_;
   double limit_;  // F
   double mu_;
   double worst_ = 0.0;

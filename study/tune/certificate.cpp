@@ -84,35 +84,16 @@ void conclude(Certificate& certificate) {
 
 }  // namespace
 
-CertificateTerms make_terms(const TuningProblem& problem, const TuningOptions& options,
-                            const std::vector<double>& point, double margin_decades) {
-  CertificateTerms terms{point, problem.variables, problem.components, options.delta, {}, {}, {}};
-  for (const double value : make_scan_values(problem.variables.front(), options.scan)) {
-    terms.scan.push_back({value});
-  }
-  const double up = std::min(options.neighbourhood, 0.5 * margin_decades);
-  for (std::size_t i = 0; i < point.size(); ++i) {
-    const TunedVariable& variable = problem.variables[i];
-    terms.lower_neighbours.push_back(point);
-    terms.upper_neighbours.push_back(point);
-    terms.lower_neighbours[i][i] =
-        std::max(variable.low, point[i] * std::pow(10.0, -options.neighbourhood));
-    terms.upper_neighbours[i][i] = std::min(variable.high, point[i] * std::pow(10.0, up));
-  }
-  return terms;
-}
-
-CertificateTerms make_box_terms(const EvaluationLog& log, const std::vector<double>& point,
-                                const std::vector<double>& margin_decades,
-                                const std::vector<std::vector<double>>& scan) {
+CertificateTerms make_terms(const EvaluationLog& log, const std::vector<double>& point,
+                            const std::vector<double>& margin_decades,
+                            const std::vector<std::vector<double>>& scan) {
   const TuningProblem& problem = log.problem();
   const TuningOptions& options = log.options();
-  CertificateTerms terms{point, problem.variables, problem.components, options.delta, {}, {}, {}};
+  CertificateTerms terms{point, problem.variables, problem.components, options.delta, scan, {}, {}};
   terms.has_proof = can_be_proven(problem);
   terms.gap = options.gap;
   terms.mu = options.mu;
   terms.slack = options.resolution;
-  terms.scan = scan;
   for (std::size_t i = 0; i < point.size(); ++i) {
     const TunedVariable& variable = problem.variables[i];
     const double up = std::min(options.neighbourhood, 0.5 * margin_decades[i]);

@@ -73,14 +73,11 @@ struct Certificate {
   std::string reason;  // empty when certified
 };
 
-// The terms for a point: neighbours lie `neighbourhood` decades below, and above by that or by half
-// the window's margin, whichever is less; never outside the declared range.
-CertificateTerms make_terms(const TuningProblem& problem, const TuningOptions& options,
-                            const std::vector<double>& point, double margin_decades);
-// The same of several variables, with the margin along each and the scan of the box.
-CertificateTerms make_box_terms(const EvaluationLog& log, const std::vector<double>& point,
-                                const std::vector<double>& margin_decades,
-                                const std::vector<std::vector<double>>& scan);
+// The terms for a point: neighbours lie `neighbourhood` decades below along each axis, and above by
+// that or by half the window's margin there, whichever is less; never outside the declared range.
+CertificateTerms make_terms(const EvaluationLog& log, const std::vector<double>& point,
+                            const std::vector<double>& margin_decades,
+                            const std::vector<std::vector<double>>& scan);
 
 // The evaluations the claims need, in a fixed order. Points of the scan below k* that match at the
 // base step are asked for at half of it as well, and so is k_i (1 - delta).

@@ -131,6 +131,12 @@ Acceptance EvaluationLog::acceptance(const std::vector<double>& x) const {
   return judge_acceptance(find(x, 1.0), find(x, 0.5), problem_.components);
 }
 
+bool EvaluationLog::is_candidate(const std::vector<double>& x) const {
+  const Observation* base = find(x, 1.0);
+  return base != nullptr && compute_ratio(base->answer, problem_.components) <= 1.0 &&
+         acceptance(x) != Acceptance::rejected;
+}
+
 std::vector<double> EvaluationLog::base_values() const {
   std::vector<double> values;
   for (const Observation& observation : observations_) {

@@ -42,6 +42,8 @@ class EvaluationLog {
   // Ratio at one variable's value, nothing where it was not evaluated.
   std::optional<double> ratio(double value, double step_factor) const;
   Acceptance acceptance(const std::vector<double>& x) const;
+  // Feasible at the base step, and not rejected at half of it.
+  bool is_candidate(const std::vector<double>& x) const;
   // Values evaluated at the base step, ascending (one variable).
   std::vector<double> base_values() const;
 

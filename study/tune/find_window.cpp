@@ -126,9 +126,7 @@ std::optional<double> find_lowest_accepted(const EvaluationLog& log) {
 
 std::optional<double> find_lowest_candidate(const EvaluationLog& log) {
   for (const double value : log.base_values()) {
-    if (feasible_at_base(log, value) && log.acceptance({value}) != Acceptance::rejected) {
-      return value;
-    }
+    if (log.is_candidate({value})) return value;
   }
   return std::nullopt;
 }

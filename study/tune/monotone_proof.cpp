@@ -34,12 +34,12 @@ std::optional<double> find_coarse(const Answer& base, const Answer& half,
   return coarse;
 }
 
+// What was evaluated at half the step, by point.
+using HalfSteps = std::map<std::vector<double>, const Observation*>;
+
 std::vector<StepBound> find_bounds(const std::vector<MatchComponent>& components,
-                                   const std::vector<Observation>& observations) {
-  std::map<std::vector<double>, const Observation*> halves;
-  for (const Observation& seen : observations) {
-    if (seen.request.step_factor == 0.5) halves[seen.request.x] = &seen;
-  }
+                                   const std::vector<Observation>& observations,
+                                   const HalfSteps& halves) {
   std::vector<StepBound> bounds;
   for (const Observation& seen : observations) {
     const auto half = halves.find(seen.request.x);
@@ -124,19 +124,19 @@ bool reaches_above(const Position& b, const Position& a) {
 
 std::vector<KnownPoint> find_known_points(const std::vector<MatchComponent>& components,
                                           const std::vector<Observation>& observations) {
-  const std::vector<StepBound> bounds = find_bounds(components, observations);
-  std::set<std::vector<double>> halved;
+  HalfSteps halves;
   for (const Observation& seen : observations) {
-    if (seen.request.step_factor == 0.5) halved.insert(seen.request.x);
+    if (seen.request.step_factor == 0.5) halves[seen.request.x] = &seen;
   }
+  const std::vector<StepBound> bounds = find_bounds(components, observations, halves);
   std::vector<KnownPoint> points;
   for (const Observation& seen : observations) {
     if (seen.request.step_factor != 1.0) continue;
     KnownPoint point{position_of(seen.request.x), compute_ratio(seen.answer, components), kNoBound,
-                     seen.answer.id, halved.contains(seen.request.x)};
+                     seen.answer.id, halves.contains(seen.request.x)};
     for (const StepBound& bound : bounds) {
-      if (bound.coarse < point.coarse && reaches_above(bound.t, point.t))
-        point.coarse = bound.coarse;
+      const bool is_less = bound.coarse < point.coarse && reaches_above(bound.t, point.t);
+      if (is_less) point.coarse = bound.coarse;
     }
     points.push_back(std::move(point));
   }
@@ -224,10 +224,7 @@ std::vector<Observation> find_staircase(const EvaluationLog& log) {
   std::vector<Observation> accepted;
   for (const Observation& seen : log.observations()) {
     const bool is_base = seen.request.step_factor == 1.0;
-    if (is_base && compute_ratio(seen.answer, log.problem().components) <= 1.0 &&
-        log.acceptance(seen.request.x) != Acceptance::rejected) {
-      accepted.push_back(seen);
-    }
+    if (is_base && log.is_candidate(seen.request.x)) accepted.push_back(seen);
   }
   std::vector<Observation> minimal;
   for (const Observation& one : accepted) {

@@ -92,9 +92,7 @@ std::optional<std::vector<double>> settle_lowest(EvaluationLog& log, std::size_t
     const Observation* lowest = nullptr;
     double objective = 0.0;
     for (const Observation& seen : log.observations()) {
-      if (seen.request.step_factor != 1.0) continue;
-      if (compute_ratio(seen.answer, log.problem().components) > 1.0) continue;
-      if (log.acceptance(seen.request.x) == Acceptance::rejected) continue;
+      if (seen.request.step_factor != 1.0 || !log.is_candidate(seen.request.x)) continue;
       const double own = compute_objective(seen.request.x);
       if (lowest != nullptr && own >= objective) continue;
       lowest = &seen;

@@ -8,7 +8,7 @@
 namespace linkstudy::tuning {
 namespace {
 
-// At part u of the range, from cheap to dear.
+// At part u of the range.
 double value_at_part(const TunedVariable& variable, double u) {
   const double low = std::log10(variable.low);
   const double high = std::log10(variable.high);

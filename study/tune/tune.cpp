@@ -34,16 +34,6 @@ void scan(EvaluationLog& log) {
   log.evaluate(requests);
 }
 
-bool any_transient(const EvaluationLog& log) {
-  return std::any_of(log.observations().begin(), log.observations().end(),
-                     [](const Observation& seen) { return is_transient(seen.answer.status); });
-}
-
-std::string budget_reason(const EvaluationLog& log) {
-  return fmt::format("the budget of {} evaluations is used up: raise max_evaluations",
-                     log.options().max_evaluations);
-}
-
 // The point that misses by least, whose component and load case say what to look at.
 void describe_nearest(const EvaluationLog& log, TuningResult& result) {
   double smallest = std::numeric_limits<double>::infinity();
@@ -69,15 +59,6 @@ std::string nearest_text(const TuningResult& result) {
                      result.answer.errors[result.binding] / component.tolerance);
 }
 
-std::optional<Observation> find_first_failure(const EvaluationLog& log) {
-  for (const Observation& seen : log.observations()) {
-    if (seen.answer.status != Cause::ok) {
-      return seen;
-    }
-  }
-  return std::nullopt;
-}
-
 void describe_empty_window(EvaluationLog& log, TuningResult& result) {
   if (!log.exhausted()) {
     probe_half_step(log);
@@ -91,13 +72,7 @@ void describe_empty_window(EvaluationLog& log, TuningResult& result) {
   describe_nearest(log, result);
   result.reason =
       "no point of the range matches" + nearest_text(result) + ": " + result.suggestion->message;
-  if (log.exhausted()) {
-    result.status = TuningStatus::inconclusive;
-    result.reason = "no match seen, and " + budget_reason(log);
-  } else if (any_transient(log)) {
-    result.status = TuningStatus::inconclusive;
-    result.reason = "no match seen, but some evaluations ended by causes of the machine";
-  }
+  doubt_no_match(log, result);
 }
 
 // Half the step at the lowest point that beats the one in hand at the base step.
@@ -114,9 +89,16 @@ struct Search {
   CertificateTerms terms;
 };
 
+CertificateTerms terms_at(const EvaluationLog& log, double value, const Window& window) {
+  std::vector<std::vector<double>> scan;
+  for (const double one : make_scan_values(log.problem().variables.front(), log.options().scan)) {
+    scan.push_back({one});
+  }
+  return make_terms(log, {value}, {window.margin_decades}, scan);
+}
+
 void gather_evidence(EvaluationLog& log, Search& search) {
-  search.terms =
-      make_terms(log.problem(), log.options(), {search.value}, search.window.margin_decades);
+  search.terms = terms_at(log, search.value, search.window);
   log.evaluate(list_requests(search.terms, log));
   log.evaluate(list_requests(search.terms, log));  // half steps of what the first round showed
 }
@@ -160,11 +142,7 @@ void add_notes(const TuningOptions& options, TuningResult& result) {
   if (has_gap(result.points)) {
     result.notes.push_back("the matching values do not form one interval: noise or a resonance");
   }
-  if (result.answer.h_omega > 1.0) {
-    result.notes.push_back(fmt::format(
-        "h omega_max is {:.3g}, above 1: the step resolves the fastest oscillation poorly",
-        result.answer.h_omega));
-  }
+  note_coarse_step(result);
   if (window.margin_decades < 10.0 * options.resolution) {
     result.notes.push_back("the window is hardly wider than the resolution: use a smaller step");
   }
@@ -179,7 +157,7 @@ void describe_window(EvaluationLog& log, Search search, TuningResult& result) {
   const double value = find_lowest_accepted(log).value_or(search.value);
   search.window = find_window(log, value);  // with everything NLopt and the claims have seen
   if (value != search.value) {
-    search.terms = make_terms(log.problem(), log.options(), {value}, search.window.margin_decades);
+    search.terms = terms_at(log, value, search.window);
   }
   result.point = {value};
   result.objective = compute_objective(result.point);

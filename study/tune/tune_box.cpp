@@ -8,7 +8,6 @@
 #include "study/tune/branch_and_bound.h"
 #include "study/tune/polish_point.h"
 #include "study/tune/scan_box.h"
-
 #include "study/tune/start_nlopt.h"
 
 namespace linkstudy::tuning {
@@ -74,7 +73,7 @@ class BoxTuning {
     windows_ = find_windows(log_, point_, std::min(kept, log_.remaining()));
     std::vector<double> margins;
     for (std::size_t j = 0; j < point_.size(); ++j) margins.push_back(windows_[j].margin_decades);
-    terms_ = make_box_terms(log_, point_, margins, scan_);
+    terms_ = make_terms(log_, point_, margins, scan_);
     log_.evaluate(list_requests(terms_, log_));
     log_.evaluate(list_requests(terms_, log_));  // half steps of what the first round showed
   }
@@ -103,8 +102,7 @@ class BoxTuning {
   std::string say_end() const {
     const BoundEnd end = bound_ ? bound_->end : BoundEnd::closed;
     if (log_.remaining() == 0 || end == BoundEnd::budget) {
-      return fmt::format("; the budget of {} evaluations is used up: raise max_evaluations",
-                         log_.options().max_evaluations);
+      return "; " + budget_reason(log_);
     }
     if (end == BoundEnd::undecided) return "; with this mu no smaller gap can be proven";
     if (end == BoundEnd::not_monotone) return "; such errors are not monotone";
@@ -113,22 +111,10 @@ class BoxTuning {
 
   void describe_no_match() {
     const std::vector<std::vector<double>> nearest = choose_starts(log_, 1);
-    const bool is_transient_seen = std::ranges::any_of(
-        log_.observations(),
-        [](const Observation& seen) { return is_transient(seen.answer.status); });
     result_.status = TuningStatus::infeasible;
     result_.reason = "no point of the box matches";
     if (!nearest.empty()) describe_nearest(nearest.front());
-    if (log_.exhausted()) {
-      result_.status = TuningStatus::inconclusive;
-      result_.reason = fmt::format(
-          "no match seen, and the budget of {} evaluations is used up: "
-          "raise max_evaluations",
-          log_.options().max_evaluations);
-    } else if (is_transient_seen) {
-      result_.status = TuningStatus::inconclusive;
-      result_.reason = "no match seen, but some evaluations ended by causes of the machine";
-    }
+    doubt_no_match(log_, result_);
   }
 
   void describe_nearest(const std::vector<double>& x) {
@@ -153,11 +139,7 @@ class BoxTuning {
     result_.points = classify_box(log_, scan_);
     result_.observations = log_.observations();
     result_.rounds = log_.rounds();
-    for (const Observation& seen : log_.observations()) {
-      if (seen.answer.status == Cause::ok) continue;
-      result_.first_failure = seen;
-      break;
-    }
+    result_.first_failure = find_first_failure(log_);
     if (result_.point.empty()) return;
     add_notes();
   }
@@ -171,11 +153,7 @@ class BoxTuning {
                       "boundary",
                       variable.path, point_[j]));
     }
-    if (result_.answer.h_omega > 1.0) {
-      result_.notes.push_back(fmt::format(
-          "h omega_max is {:.3g}, above 1: the step resolves the fastest oscillation poorly",
-          result_.answer.h_omega));
-    }
+    note_coarse_step(result_);
   }
 
   EvaluationLog log_;

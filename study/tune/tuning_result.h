@@ -72,4 +72,11 @@ inline const TunedVariable& variable_of(const TuningResult& result) {
   return result.problem.variables.front();
 }
 
+std::string budget_reason(const EvaluationLog& log);
+// Where the budget or the machine ended the search, that nothing matches is not known.
+void doubt_no_match(const EvaluationLog& log, TuningResult& result);
+std::optional<Observation> find_first_failure(const EvaluationLog& log);
+// Of the answer.
+void note_coarse_step(TuningResult& result);
+
 }  // namespace linkstudy::tuning

@@ -13,28 +13,9 @@ std::int64_t to_count(std::uint64_t number) {
   return static_cast<std::int64_t>(number);
 }
 
-// Columns one after the other, each from the rows of one list.
-template <class Row>
-class TableOf {
- public:
-  TableOf(const char* name, const std::vector<Row>& rows) : table_{name}, rows_(rows) {}
-
-  template <class Field>
-  TableOf& add(const std::string& name, const std::string& unit, const char* meaning, Field field) {
-    table_.columns.push_back({name, unit, meaning, "tuning", column_of(rows_, field)});
-    return *this;
-  }
-
-  Table take() { return std::move(table_); }
-
- private:
-  Table table_;
-  const std::vector<Row>& rows_;
-};
-
 Table make_result_table(const TuningResult& result) {
   const std::vector<TuningResult> one = {result};
-  TableOf table("result", one);
+  TableOf table("result", "tuning", one);
   using Result = TuningResult;
   const bool matches = !result.point.empty();
   const std::string unit = variable_of(result).unit;
@@ -72,7 +53,7 @@ Table make_result_table(const TuningResult& result) {
 Table make_box_table(const TuningResult& result) {
   using Row = TunedVariable;
   const bool matches = !result.point.empty();
-  TableOf table("result", result.problem.variables);
+  TableOf table("result", "tuning", result.problem.variables);
   std::size_t i = 0;
   table.add("parameter", "", "what was tuned", [](const Row& r) { return r.path; });
   table.add("unit", "", "of its values", [](const Row& r) { return r.unit; });
@@ -104,7 +85,7 @@ Table make_component_table(const TuningResult& result) {
   std::vector<double> errors = result.answer.errors;
   errors.resize(result.problem.components.size(), kNan);
   using Row = MatchComponent;
-  TableOf table("components", result.problem.components);
+  TableOf table("components", "tuning", result.problem.components);
   table.add("name", "", "of the matched component", [](const Row& r) { return r.name; });
   table.add("tolerance", "1", "largest relative error allowed",
             [](const Row& r) { return r.tolerance; });
@@ -115,7 +96,7 @@ Table make_component_table(const TuningResult& result) {
 
 Table make_scan_table(const TuningResult& result) {
   using Row = ScanPoint;
-  TableOf table("scan", result.points);
+  TableOf table("scan", "tuning", result.points);
   const std::vector<TunedVariable>& variables = result.problem.variables;
   if (variables.size() == 1) {
     table.add("value", variables[0].unit, "tried", [](const Row& r) { return r.value; });
@@ -140,7 +121,7 @@ Table make_certificate_table(const TuningResult& result) {
     claims.assign(result.certificate->claims.begin(), result.certificate->claims.end());
   }
   using Row = Claim;
-  TableOf table("certificate", claims);
+  TableOf table("certificate", "tuning", claims);
   table.add("claim", "", "", [](const Row& r) { return r.name; });
   table.add("statement", "", "", [](const Row& r) { return r.statement; });
   table.add("verdict", "", "", [](const Row& r) { return std::string(name_of(r.verdict)); });
@@ -152,7 +133,7 @@ Table make_certificate_table(const TuningResult& result) {
 
 Table make_evaluation_table(const TuningResult& result) {
   using Row = Observation;
-  TableOf table("evaluations", result.observations);
+  TableOf table("evaluations", "tuning", result.observations);
   table.add("evaluation", "", "its number", [](const Row& r) { return to_count(r.answer.id); });
   const std::vector<TunedVariable>& variables = result.problem.variables;
   for (std::size_t j = 0; j < variables.size(); ++j) {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "study/record/json_number.h"
+
 namespace linkstudy::tuning {
 namespace {
 
@@ -13,10 +15,6 @@ using Json = nlohmann::ordered_json;
 
 void add_line(std::string& text, const std::string& key, const std::string& value) {
   text += fmt::format("{:<12}{}\n", key, value);
-}
-
-Json make_number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
 void add_point(std::string& text, const TuningResult& result) {
@@ -92,7 +90,7 @@ Json make_derived(const TuningResult& result) {
   Json derived = Json::object();
   if (result.point.empty()) return derived;
   for (const Trace& one : result.answer.derived) {
-    derived[one.name] = {{"value", make_number(one.values.front())}, {"unit", one.unit}};
+    derived[one.name] = {{"value", json_number(one.values.front())}, {"unit", one.unit}};
   }
   return derived;
 }
@@ -116,7 +114,7 @@ Json make_binding(const TuningResult& result) {
   return {{"component", component.name},
           {"value", result.answer_value},
           {"evaluation", result.answer.id},
-          {"error", make_number(result.answer.errors[result.binding])},
+          {"error", json_number(result.answer.errors[result.binding])},
           {"tolerance", component.tolerance}};
 }
 
@@ -272,7 +270,7 @@ std::string write_json(const TuningResult& result, const std::string& digest) {
   Json errors = Json::object();
   for (std::size_t i = 0;
        i < std::min(result.answer.errors.size(), result.problem.components.size()); ++i) {
-    errors[result.problem.components[i].name] = make_number(result.answer.errors[i]);
+    errors[result.problem.components[i].name] = json_number(result.answer.errors[i]);
   }
   Json json = {{"status", name_of(result.status)},
                {"reason", result.reason},
