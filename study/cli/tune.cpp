@@ -9,15 +9,15 @@
 namespace linkstudy {
 
 int run_tune(const CommandLine& line) {
-  const auto print = [&](const tuning::TuningResult& result, const std::string& digest,
-                         StudySession&) {
+  const auto print = [&](const std::vector<tuning::TuningResult>& results,
+                         const std::string& digest, StudySession&) {
     if (line.json) {
-      print_out(tuning::write_json(result, digest) + "\n");
+      print_out(tuning::write_json(results, digest) + "\n");
     } else {
-      print_out(tuning::write_text(result));
+      print_out(tuning::write_text(results));
       print_out(fmt::format("results digest: {}\n", digest));
     }
-    return result.status == tuning::TuningStatus::certified ? kDone : kNotTuned;
+    return worst_of(results) == tuning::TuningStatus::certified ? kDone : kNotTuned;
   };
   return run_to_answer(line, FileKind::tune, run_tuning, print);
 }

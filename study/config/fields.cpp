@@ -59,6 +59,7 @@ void fill_member(Eigen::Matrix3d& member, const Tree& value) {
 }
 
 void fill_member(std::vector<double>& member, const Tree& value) {
+  if (value.is_numeric()) member.push_back(value.as_number());
   for (const Tree& item : value.items) member.push_back(item.as_number());
 }
 

@@ -17,8 +17,9 @@
 namespace linkstudy {
 
 enum class KeyType {
-  number,           // a number in `unit`, or a text with a unit
-  number_or_table,  // the same, or a table of such numbers with rows of their own
+  number,             // a number in `unit`, or a text with a unit
+  number_or_table,    // the same, or a table of such numbers with rows of their own
+  number_or_numbers,  // the same, or an array of at least one
   integer,
   boolean,
   word,       // one of `words`

@@ -34,6 +34,8 @@ std::string type_text(const KeyRow& row) {
       return "number";
     case KeyType::number_or_table:
       return "number or table";
+    case KeyType::number_or_numbers:
+      return "number or numbers";
     case KeyType::integer:
       return "integer";
     case KeyType::boolean:

@@ -36,7 +36,7 @@ void finish_refinement(StudyInput& input, const WrittenValues& written, Diagnost
     check_levels(input.vary[i], written[i], diagnostics);
   }
   for (MatchInput& match : input.match) {
-    if (match.tolerance == 0.0) match.tolerance = input.wanted_error;
+    if (match.tolerance.empty()) match.tolerance = {input.wanted_error};
   }
   for (const SeriesInput& series : input.series) input.trace.push_back({series.signal, series.at});
 }

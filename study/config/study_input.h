@@ -66,7 +66,7 @@ struct MatchInput {
   double reference_sign = 1.0;   // -1: written with '-'
   ErrorNorm norm = ErrorNorm::max;
   ErrorScale scale = ErrorScale::component;
-  double tolerance = 0.0;
+  std::vector<double> tolerance;     // of a tune one for each answer that is wanted
   std::optional<TimeWindow> window;  // none: the whole run
   double floor = 0.05;
   Location at;            // of signal
@@ -80,6 +80,21 @@ struct ResponseInput {
   std::optional<TimeWindow> window;
   Location at;       // of signal
   Location name_at;  // of name
+};
+
+// What is best among the points that match, where it is not the least sum of log10.
+struct ObjectiveInput {
+  std::string of;  // path of a tuned value, or a response
+  bool maximizes = false;
+  Location at;
+};
+
+// A response, or a number that is kept of every run, that a tuned point must keep within a bound.
+struct LimitInput {
+  std::string response;
+  std::optional<Tree> at_most;  // a number in the response's unit, or a text with a unit
+  std::optional<Tree> at_least;
+  Location at;  // of response
 };
 
 // A time history that a refinement compares from level to level.
@@ -134,6 +149,8 @@ struct StudyInput {
   std::vector<CalibratedInput> calibrated;
   std::vector<MatchInput> match;
   std::vector<ResponseInput> response;
+  std::optional<ObjectiveInput> objective;
+  std::vector<LimitInput> limit;
   std::vector<TraceInput> trace;  // those of series among them
   std::vector<SeriesInput> series;
   double wanted_error = 1e-3;  // of a refinement, relative

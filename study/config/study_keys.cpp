@@ -69,11 +69,16 @@ Fields<MatchInput> match_fields(FileKind kind) {
   KeyRow tolerance{.meaning = "largest relative error that still matches",
                    .range = kPositive,
                    .required = kind != FileKind::converge};
+  if (kind == FileKind::tune) {
+    tolerance.type = number_or_numbers;
+    tolerance.meaning += "; several: an answer for each, the first of every match together";
+  }
   if (!tolerance.required) {
     tolerance.meaning = "wanted relative error; default: wanted_error";
     tolerance.derive = [](const Tree&) { return std::optional<Tree>(); };
   }
-  match.add("tolerance", &MatchInput::tolerance, std::move(tolerance));
+  match.read("tolerance", std::move(tolerance),
+             [](MatchInput& to, Tree& value, const Reading&) { fill_member(to.tolerance, value); });
   add_window(match, kWholeRun);
   match.add("floor", &MatchInput::floor,
             {.meaning = "a component whose reference stays under this fraction of the vector's is "
@@ -179,6 +184,42 @@ void add_vary(Fields<Study>& study) {
               std::move(design));
 }
 
+void add_objective(Fields<Study>& study) {
+  Fields<ObjectiveInput> objective;
+  const auto add = [&](const char* key, const char* meaning, bool maximizes) {
+    objective.read(key, {.type = text, .meaning = meaning, .required = true, .group = "objective"},
+                   [maximizes](ObjectiveInput& to, Tree& value, const Reading&) {
+                     to = {value.text, maximizes, value.at};
+                   });
+  };
+  add("minimize", "a tuned value, or a response: of several components or load cases the largest",
+      false);
+  add("maximize", "the same, the smallest as large as it may be", true);
+  study.table("objective", &Study::objective,
+              {.meaning = "what is best among the points that match; default: the least sum of the "
+                          "log10 of the tuned values"},
+              std::move(objective));
+}
+
+void add_limits(Fields<Study>& study) {
+  Fields<LimitInput> limit;
+  limit.add("response", &LimitInput::response,
+            {.meaning = "[[response]], one component of it (peak_x), or a number that is always "
+                        "kept (gap_max, drift_max, energy_residual_max, contacts, ...)",
+             .required = true},
+            [](LimitInput& to, Tree& value, const Reading&) { to.at = value.at; });
+  const auto add = [&](const char* key, const char* meaning,
+                       std::optional<Tree> LimitInput::*member) {
+    limit.read(key, {.type = scalar, .meaning = meaning, .required = true, .group = "bound"},
+               [member](LimitInput& to, Tree& value, const Reading&) { to.*member = value; });
+  };
+  add("at_most", "number in the response's unit, or text with a unit", &LimitInput::at_most);
+  add("at_least", "likewise", &LimitInput::at_least);
+  study.tables("limit", &Study::limit,
+               {.meaning = "bounds on responses that a tuned point must keep, beside the matches"},
+               std::move(limit));
+}
+
 void add_tune(Fields<Study>& study) {
   Fields<Study> tune;
   add_parameter(tune);
@@ -187,10 +228,13 @@ void add_tune(Fields<Study>& study) {
                                  "[lowest, highest], searched linearly"));
   study.tables("tune", {.meaning = "values whose lowest is wanted", .required = true},
                std::move(tune));
+  add_objective(study);
+  add_limits(study);
   Fields<SearchOptions> search;
-  search.add(
-      "scan", &SearchOptions::scan,
-      {.meaning = "points of the first scan over the range", .range = {.low = 2, .high = 10000}});
+  search.add("scan", &SearchOptions::scan,
+             {.meaning = "points of the first scan over the range; of several values along the "
+                         "diagonal of their ranges, and as many for each further one in the box",
+              .range = {.low = 2, .high = 10000}});
   search.add("batch", &SearchOptions::batch,
              {.meaning = "points evaluated side by side; changes the path of the search",
               .range = {.low = 1, .high = 1024}});
@@ -198,10 +242,25 @@ void add_tune(Fields<Study>& study) {
              {.meaning = "width in decades at which the search ends",
               .range = {.low = 0, .high = 1, .low_is_out = true}});
   search.add("max_evaluations", &SearchOptions::max_evaluations,
-             {.meaning = "budget of evaluations", .range = {.low = 1, .high = 1.0e6}});
+             {.meaning = "budget of evaluations of each answer; default: 200, of two values 1500, "
+                         "of more 4000",
+              .range = {.low = 1, .high = 1.0e6}});
   search.add("delta", &SearchOptions::delta,
              {.meaning = "certificate: (1 - delta) times the answer must fail",
               .range = {.low = 0, .high = 1, .low_is_out = true, .high_is_out = true}});
+  search.add("gap", &SearchOptions::gap,
+             {.meaning = "of two or three values: decades of the sum of log10 by which a lower "
+                         "match is to be excluded, if errors are monotone",
+              .range = {.low = 0.001, .high = 10}});
+  search.add("mu", &SearchOptions::mu,
+             {.meaning = "of the same proof: relative rise of an error with a stiffer joint that "
+                         "is put down to noise; twice the worst rise seen, where that is more",
+              .range = {.low = 0, .high = 1}});
+  search.add("steps", &SearchOptions::steps,
+             {.meaning = "steps of integration, an answer for each: the map of value and step; "
+                         "default: that of the model",
+              .unit = "s",
+              .range = kPositive});
   study.table("search", &Study::search, {.meaning = "how the search goes", .standard = "{}"},
               std::move(search));
 }

@@ -23,6 +23,8 @@ std::string described_type(const KeyRow& row, KeyType type) {
       return "a number" + unit;
     case KeyType::number_or_table:
       return "a number" + unit + " or a table of them";
+    case KeyType::number_or_numbers:
+      return "a number" + unit + " or an array of them";
     case KeyType::numbers:
       return "an array of numbers" + unit;
     case KeyType::integer:
@@ -217,6 +219,10 @@ class Validator {
       case KeyType::number_or_table:
         return value.is(Kind::table) ? check_table(value, node, &scope)
                                      : check_number(value, node.row, scope);
+      case KeyType::number_or_numbers:
+        if (value.is(Kind::array) && value.items.empty()) return report_type(value, node, scope);
+        return value.is(Kind::array) ? check_array(value, node, scope)
+                                     : check_number(value, node.row, scope);
       case KeyType::integer:
         return check_integer(value, node, scope);
       case KeyType::boolean:
@@ -318,7 +324,9 @@ class Validator {
 
   void check_item(Tree& item, const KeyNode& node, const Scope& scope) {
     if (!item.is_valid()) return;
-    if (node.row.type == KeyType::numbers) return check_number(item, node.row, scope);
+    const bool is_numeric =
+        node.row.type == KeyType::numbers || node.row.type == KeyType::number_or_numbers;
+    if (is_numeric) return check_number(item, node.row, scope);
     if (node.row.type == KeyType::texts && !(item.is(Kind::text) && !item.text.empty())) {
       report(item, fmt::format("{} must be a text, got {}", subject_of(scope), shown(item)),
              node.row.meaning);
@@ -375,7 +383,8 @@ bool convert_text(Tree& value, const KeyRow& row, const std::string& subject,
     value.kind = Kind::invalid;
     return false;
   };
-  const bool is_one_of_many = row.type == KeyType::numbers;
+  const bool is_one_of_many =
+      row.type == KeyType::numbers || row.type == KeyType::number_or_numbers;
   const std::string wanted = described_type(row, is_one_of_many ? KeyType::number : row.type);
   const std::string example = row.unit.empty()
                                   ? "write a plain number"

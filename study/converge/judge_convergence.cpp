@@ -85,7 +85,7 @@ class Judging {
       const std::size_t first = match.norm == ErrorNorm::rms ? errors.rms : errors.max;
       for (std::size_t c = 0; c < errors.channels.size(); ++c) {
         Quantity quantity = quantity_at(first + c, QuantityKind::error, one);
-        quantity.wanted = match.tolerance;
+        quantity.wanted = match.tolerance.front();
         quantities_.push_back(std::move(quantity));
       }
     }

@@ -67,8 +67,20 @@ class TimesCheck {
     Diagnostics said_before;
     const auto model = input_.model->with(case_overrides(input_, {}, point), said_before);
     if (!model) return points;
-    point.push_back(make_override(kStepPath, model->options.step / 2.0));
-    points.push_back(point);
+    std::vector<double> steps = input_.search.steps;
+    if (steps.empty()) {
+      steps = {model->options.step};
+    } else {
+      points.clear();
+    }
+    point.emplace_back();
+    for (const double step : steps) {
+      for (const double one : {step, step / 2.0}) {
+        point.back() = make_override(kStepPath, one);
+        point.back().value.at = locate(input_.resolved, "search.steps");
+        points.push_back(point);
+      }
+    }
     return points;
   }
 

@@ -181,22 +181,27 @@ std::unique_ptr<Evaluator> Evaluator::make(StudyInput input, std::vector<Paramet
   for (const LoadCaseInput& one : input.load_case) {
     if (one.measured && one.reference) check_reference_data(input, one, point, found);
   }
+  std::unique_ptr<Evaluator> evaluator;
+  if (signals && found.empty()) {
+    evaluator.reset(
+        new Evaluator(std::move(input), std::move(parameters), std::move(*signals), found));
+  }
   diagnostics.append(found);
-  if (!signals || !found.empty()) return nullptr;
-  std::unique_ptr<Evaluator> evaluator(
-      new Evaluator(std::move(input), std::move(parameters), std::move(*signals)));
+  if (!found.empty()) return nullptr;
   evaluator->measured_ = std::move(measured);
   return evaluator;
 }
 
-Evaluator::Evaluator(StudyInput input, std::vector<Parameter> parameters, StudySignals signals)
+Evaluator::Evaluator(StudyInput input, std::vector<Parameter> parameters, StudySignals signals,
+                     Diagnostics& diagnostics)
     : input_(std::move(input)),
       parameters_(std::move(parameters)),
       load_cases_(load_cases_of(input_)),
       signals_(std::move(signals)),
       layout_(layout_of(input_, signals_)),
       responses_(list_responses(input_, signals_)),
-      judged_(list_judged_errors(input_, signals_)),
+      judged_(list_judged_errors(input_, signals_, diagnostics)),
+      objective_(list_objective_responses(input_, signals_, diagnostics)),
       references_(load_cases_.size()) {}
 
 double Evaluator::worst(RunNumber number, const std::vector<double>& responses) const {

@@ -18,6 +18,7 @@
 
 #include "study/evaluate/prepared_case.h"
 #include "study/evaluate/reference_run.h"
+#include "study/metrics/judged_errors.h"
 #include "study/record/evaluation.h"
 
 namespace linkstudy {
@@ -39,6 +40,8 @@ class Evaluator {
   // In the mechanism of the first point.
   const StudySignals& signals() const { return signals_; }
   const std::vector<JudgedError>& judged_errors() const { return judged_; }
+  // Of the objective of a tune; empty where that is none of responses.
+  const std::vector<std::size_t>& objective_responses() const { return objective_; }
   // Largest (or, of step_limit, smallest) value of a run number over the load cases.
   double worst(RunNumber number, const std::vector<double>& responses) const;
 
@@ -76,7 +79,8 @@ class Evaluator {
   double reached() const { return reached_.load(std::memory_order_relaxed); }
 
  private:
-  Evaluator(StudyInput input, std::vector<Parameter> parameters, StudySignals signals);
+  Evaluator(StudyInput input, std::vector<Parameter> parameters, StudySignals signals,
+            Diagnostics& diagnostics);
 
   MeasuredRun measured_run(std::size_t load_case, const Point& point);
 
@@ -102,6 +106,7 @@ class Evaluator {
   ResponseLayout layout_;
   std::vector<Response> responses_;
   std::vector<JudgedError> judged_;
+  std::vector<std::size_t> objective_;
   double timeout_s_ = 0.0;
   std::atomic<bool> cancelled_{false};
   std::atomic<double> reached_{0.0};

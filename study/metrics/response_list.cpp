@@ -256,23 +256,4 @@ ResponseLayout layout_of(const StudyInput& input, const StudySignals& signals) {
   return layout;
 }
 
-std::vector<JudgedError> list_judged_errors(const StudyInput& input, const StudySignals& signals) {
-  std::vector<JudgedError> errors;
-  const ResponseLayout layout = layout_of(input, signals);
-  std::size_t first = 0;
-  for (const LoadCaseInput& load_case : load_cases_of(input)) {
-    const std::string prefix = load_case.name.empty() ? "" : load_case.name + ".";
-    for (std::size_t i = 0; i < input.match.size(); ++i) {
-      const std::size_t n = signals.match[i].size();
-      const std::size_t skip = input.match[i].norm == ErrorNorm::rms ? n : 0;
-      for (std::size_t c = 0; c < n; ++c) {
-        errors.push_back({prefix + signals.match[i][c].name, first + layout.match[i] + skip + c,
-                          input.match[i].tolerance});
-      }
-    }
-    first += layout.width;
-  }
-  return errors;
-}
-
 }  // namespace linkstudy

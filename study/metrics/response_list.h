@@ -66,12 +66,4 @@ std::vector<StoredCase> split_responses(const std::vector<Response>& responses);
 // The part that a list of channels has in common: "closure.S.force".
 std::string group_of(const std::vector<std::string>& channels);
 
-// One error that a tuner judges.
-struct JudgedError {
-  std::string name;          // "closure.S.force.x", the load case in front where there are any
-  std::size_t response = 0;  // in list_responses
-  double tolerance = 0.0;
-};
-std::vector<JudgedError> list_judged_errors(const StudyInput& input, const StudySignals& signals);
-
 }  // namespace linkstudy

@@ -11,6 +11,7 @@
 #include "study/report/console.h"
 #include "study/session/interrupted.h"
 #include "study/store/store_error.h"
+#include "study/tune/tuning_setup.h"
 
 namespace linkstudy {
 namespace {
@@ -49,9 +50,10 @@ std::string one_line(std::string text) {
 
 std::uint64_t most_evaluations(const StudyInput& input, std::uint64_t total) {
   if (total > 0) return total;
-  const bool is_fit = input.kind == FileKind::calibrate;
-  return is_fit ? static_cast<std::uint64_t>(input.fit.max_evaluations)
-                : static_cast<std::uint64_t>(input.search.max_evaluations);
+  if (input.kind == FileKind::calibrate) {
+    return static_cast<std::uint64_t>(input.fit.max_evaluations);
+  }
+  return most_tuning_evaluations(input);
 }
 
 std::string counts_text(const StudyRecord& record, std::uint64_t total) {

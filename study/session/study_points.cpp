@@ -47,18 +47,6 @@ std::vector<Point> points_of(const StudyInput& input) {
   return make_points(input.design, axes_of(input));
 }
 
-double base_step_of(const StudyInput& input) {
-  std::vector<Override> lows;
-  for (const TuneInput& tune : input.tune) {
-    lows.push_back(make_override(tune.parameter.path, tune.low));
-  }
-  Diagnostics diagnostics;
-  const std::optional<ModelInput> model =
-      input.model->with(case_overrides(input, {}, lows), diagnostics);
-  throw_if_any(diagnostics);
-  return model->options.step;
-}
-
 std::unique_ptr<Evaluator> make_evaluator(const StudyInput& input, Diagnostics& diagnostics) {
   if (input.kind == FileKind::tune) check_tune(input, diagnostics);
   if (!diagnostics.empty()) return nullptr;

@@ -14,7 +14,4 @@ std::vector<Parameter> parameters_of(const StudyInput& input);
 std::vector<Point> points_of(const StudyInput& input);
 std::unique_ptr<Evaluator> make_evaluator(const StudyInput& input, Diagnostics& diagnostics);
 
-// simulation.step of the model of a tune, s.
-double base_step_of(const StudyInput& input);
-
 }  // namespace linkstudy

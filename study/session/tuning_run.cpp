@@ -1,5 +1,8 @@
 #include "study/session/tuning_run.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "study/session/study_points.h"
@@ -41,6 +44,24 @@ std::vector<Answer> TuningRun::evaluate(const std::vector<Request>& requests) {
   return answers;
 }
 
+namespace {
+
+// The largest of the responses, or of a largest wanted the smallest, to be minimised.
+double find_objective(const Evaluator& evaluator, const std::vector<double>& responses) {
+  const std::vector<std::size_t>& own = evaluator.objective_responses();
+  if (own.empty()) return 0.0;
+  const double sign = evaluator.input().objective->maximizes ? -1.0 : 1.0;
+  double worst = -std::numeric_limits<double>::infinity();
+  for (const std::size_t i : own) {
+    const double value = sign * responses.at(i);
+    if (std::isnan(value)) return value;
+    worst = std::max(worst, value);
+  }
+  return worst;
+}
+
+}  // namespace
+
 Answer to_answer(const Evaluator& evaluator, const Evaluation& evaluation) {
   Answer answer;
   answer.id = evaluation.point.id;
@@ -52,20 +73,24 @@ Answer to_answer(const Evaluator& evaluator, const Evaluation& evaluation) {
   answer.step_limit = evaluator.worst(RunNumber::step_limit, evaluation.responses);
   if (evaluation.status != Cause::ok) return answer;
   for (const JudgedError& error : evaluator.judged_errors()) {
-    answer.errors.push_back(evaluation.responses.at(error.response));
+    answer.errors.push_back(error_of(error, evaluation.responses.at(error.response)));
   }
+  answer.objective = find_objective(evaluator, evaluation.responses);
   return answer;
 }
 
-tuning::TuningResult run_tuning(StudySession& session) {
+std::vector<tuning::TuningResult> run_tuning(StudySession& session) {
   const Evaluator& evaluator = session.evaluator();
   TuningRun run(session);
-  tuning::TuningResult result =
-      tuning::tune(make_tuning_problem(evaluator), make_tuning_options(evaluator.input()),
-                   [&](const auto& requests) { return run.evaluate(requests); });
-  session.record().set_answer(AnswerKind::tuning, tuning::write_json(result, ""),
-                              tuning::make_tables(result));
-  return result;
+  std::vector<tuning::TuningResult> results = search_tuning(evaluator, run);
+  session.record().set_answer(AnswerKind::tuning, tuning::write_json(results, ""),
+                              tuning::make_tables(results));
+  return results;
+}
+
+std::vector<tuning::TuningResult> search_tuning(const Evaluator& evaluator, TuningRun& run) {
+  return tuning::tune(make_tuning_targets(evaluator), make_tuning_options(evaluator.input()),
+                      [&](const auto& requests) { return run.evaluate(requests); });
 }
 
 }  // namespace linkstudy

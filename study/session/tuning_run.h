@@ -34,7 +34,9 @@ class TuningRun {
 
 tuning::Answer to_answer(const Evaluator& evaluator, const Evaluation& evaluation);
 
-// The search; its answer is among the results. Throws as StudySession::evaluate does.
-tuning::TuningResult run_tuning(StudySession& session);
+// The search of all answers.
+std::vector<tuning::TuningResult> search_tuning(const Evaluator& evaluator, TuningRun& run);
+// The same; its answers are among the results. Throws as StudySession::evaluate does.
+std::vector<tuning::TuningResult> run_tuning(StudySession& session);
 
 }  // namespace linkstudy

@@ -50,6 +50,14 @@ void collect_evaluations(const nlohmann::json& json, std::vector<std::uint64_t>&
   for (const auto& part : json) collect_evaluations(part, ids);
 }
 
+// Of one answer, or of several.
+void collect_certificates(const nlohmann::json& answer, std::vector<std::uint64_t>& ids) {
+  if (!answer.is_object()) return;
+  if (answer.contains("certificate")) collect_evaluations(answer["certificate"], ids);
+  if (!answer.contains("answers")) return;
+  for (const auto& one : answer["answers"]) collect_certificates(one, ids);
+}
+
 // Responses that studies are about: errors and [[response]].
 std::vector<std::size_t> compared_columns(const StudyDescription& description) {
   std::vector<std::size_t> columns;
@@ -84,9 +92,7 @@ class Verifier {
     compare_program();
     const nlohmann::json answer = answer_of(results_);
     std::vector<std::uint64_t> needed;
-    if (answer.is_object() && answer.contains("certificate")) {
-      collect_evaluations(answer["certificate"], needed);
-    }
+    collect_certificates(answer, needed);
     result_.rerun = choose_evaluations(results_, needed, options_);
     run_again();
     if (answer.is_object()) judge_answer(answer);
@@ -195,11 +201,9 @@ class Verifier {
                                   return evaluations_.at(id);
                                 }});
     try {
-      const tuning::TuningResult result =
-          tuning::tune(make_tuning_problem(*evaluator_), make_tuning_options(evaluator_->input()),
-                       [&](const auto& requests) { return run.evaluate(requests); });
-      check_claims(result);
-      return nlohmann::json::parse(tuning::write_json(result, ""));
+      const std::vector<tuning::TuningResult> results = search_tuning(*evaluator_, run);
+      for (const tuning::TuningResult& result : results) check_claims(result);
+      return nlohmann::json::parse(tuning::write_json(results, ""));
     } catch (const StoreError& error) {
       result_.refuted = error.what();
       return std::nullopt;
@@ -209,9 +213,10 @@ class Verifier {
   void check_claims(const tuning::TuningResult& result) {
     if (!result.certificate) return;
     const auto look_up = [&](std::uint64_t id) -> std::optional<tuning::Observation> {
-      if (id >= result.observations.size() || !evaluations_.contains(id)) return std::nullopt;
-      return tuning::Observation{result.observations[id].request,
-                                 to_answer(*evaluator_, evaluations_.at(id))};
+      const auto seen = std::ranges::find(
+          result.observations, id, [](const tuning::Observation& one) { return one.answer.id; });
+      if (seen == result.observations.end() || !evaluations_.contains(id)) return std::nullopt;
+      return tuning::Observation{seen->request, to_answer(*evaluator_, evaluations_.at(id))};
     };
     const tuning::Certificate checked = tuning::check_certificate(*result.certificate, look_up);
     if (checked.verdict == tuning::Verdict::refuted) result_.refuted = checked.reason;

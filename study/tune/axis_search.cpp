@@ -23,7 +23,8 @@ AxisSearch::AxisSearch(const EvaluationLog& known, std::vector<double> point, st
                        std::size_t budget, EvaluateBatch ask)
     : point_(std::move(point)), j_(j), ask_(std::move(ask)), log_({}, {}, {}) {
   const std::vector<Request> seen = find_seen(known, point_, j_);
-  const TuningProblem problem{{known.problem().variables[j_]}, known.problem().components};
+  TuningProblem problem = known.problem();
+  problem.variables = {known.problem().variables[j_]};
   TuningOptions options = known.options();
   options.max_evaluations = budget + seen.size();
   log_ = EvaluationLog(problem, options, [this](const auto& requests) { return answer(requests); });

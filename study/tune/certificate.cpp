@@ -27,10 +27,8 @@ bool between(const CertificateTerms& terms, const std::vector<double>& x, std::s
 }
 
 Claim collect_minimality(const CertificateTerms& terms, const EvaluationLog& log) {
-  Claim claim{"C1", fmt::format("every k_i (1 - {:g}) alone fails", terms.delta), {}, {}, {}};
-  for (std::size_t i = 0; i < terms.point.size(); ++i) {
-    add_ids(log, reduced_point(terms, i), claim);
-  }
+  Claim claim{"C1", minimality_statement(terms), {}, {}, {}};
+  for (const std::vector<double>& x : points_about(terms)) add_ids(log, x, claim);
   return claim;
 }
 
@@ -45,6 +43,7 @@ Claim collect_scan(const CertificateTerms& terms, const EvaluationLog& log) {
 Claim collect_neighbourhood(const CertificateTerms& terms, const EvaluationLog& log) {
   Claim claim{"C3", "the error falls in k about k* by more than the noise", {}, {}, {}};
   for (std::size_t i = 0; i < terms.point.size(); ++i) {
+    if (terms.variables[i].weight == 0.0) continue;
     for (const Observation& observation : log.observations()) {
       const Request& request = observation.request;
       const bool inside = between(terms, request.x, i);
@@ -89,17 +88,28 @@ CertificateTerms make_terms(const EvaluationLog& log, const std::vector<double>&
                             const std::vector<std::vector<double>>& scan) {
   const TuningProblem& problem = log.problem();
   const TuningOptions& options = log.options();
-  CertificateTerms terms{point, problem.variables, problem.components, options.delta, scan, {}, {}};
+  CertificateTerms terms;
+  terms.point = point;
+  terms.variables = problem.variables;
+  terms.components = problem.components;
+  terms.response = problem.response;
+  terms.objective = compute_objective(problem, point, log.find(point, 1.0)->answer);
+  terms.delta = options.delta;
+  terms.neighbourhood = options.neighbourhood;
+  terms.scan = scan;
   terms.has_proof = can_be_proven(problem);
   terms.gap = options.gap;
   terms.mu = options.mu;
   terms.slack = options.resolution;
   for (std::size_t i = 0; i < point.size(); ++i) {
     const TunedVariable& variable = problem.variables[i];
-    const double up = std::min(options.neighbourhood, 0.5 * margin_decades[i]);
+    const double into = std::min(options.neighbourhood, 0.5 * margin_decades[i]);
+    const bool is_largest = variable.weight < 0.0;
+    const double down = is_largest ? into : options.neighbourhood;
+    const double up = is_largest ? options.neighbourhood : into;
     terms.lower_neighbours.push_back(point);
     terms.upper_neighbours.push_back(point);
-    terms.lower_neighbours[i][i] = move_along(variable, point[i], -options.neighbourhood);
+    terms.lower_neighbours[i][i] = move_along(variable, point[i], -down);
     terms.upper_neighbours[i][i] = move_along(variable, point[i], up);
   }
   return terms;
@@ -108,17 +118,15 @@ CertificateTerms make_terms(const EvaluationLog& log, const std::vector<double>&
 std::vector<Request> list_requests(const CertificateTerms& terms, const EvaluationLog& log) {
   std::vector<Request> requests = {{terms.point, 1.0, "certificate"},
                                    {terms.point, 0.5, "certificate"}};
-  for (std::size_t i = 0; i < terms.point.size(); ++i) {
-    const std::vector<double> reduced = reduced_point(terms, i);
-    if (reduced[i] >= terms.variables[i].low) {
-      requests.push_back({reduced, 1.0, "certificate"});
-    }
-    requests.push_back({terms.lower_neighbours[i], 1.0, "certificate"});
-    requests.push_back({terms.upper_neighbours[i], 1.0, "certificate"});
-  }
   std::vector<std::vector<double>> suspects = scan_below(terms);
   for (std::size_t i = 0; i < terms.point.size(); ++i) {
-    suspects.push_back(reduced_point(terms, i));
+    for (const std::vector<double>& x : points_about(terms, i)) {
+      suspects.push_back(x);
+      if (is_in_range(terms, x)) requests.push_back({x, 1.0, "certificate"});
+    }
+    if (terms.response || terms.variables[i].weight == 0.0) continue;
+    requests.push_back({terms.lower_neighbours[i], 1.0, "certificate"});
+    requests.push_back({terms.upper_neighbours[i], 1.0, "certificate"});
   }
   for (const std::vector<double>& x : suspects) {
     const Observation* base = log.find(x, 1.0);
@@ -136,7 +144,7 @@ Certificate make_certificate(const CertificateTerms& terms, const EvaluationLog&
   add_ids(log, terms.point, certificate.claims[0]);
   certificate.claims.push_back(collect_minimality(terms, log));
   certificate.claims.push_back(collect_scan(terms, log));
-  certificate.claims.push_back(collect_neighbourhood(terms, log));
+  if (!terms.response) certificate.claims.push_back(collect_neighbourhood(terms, log));
   if (terms.has_proof) certificate.claims.push_back(collect_proof(terms, log));
   for (Claim& claim : certificate.claims) {
     std::vector<Observation> evidence;

@@ -1,13 +1,16 @@
 // What a tuner claims about its point k*, each claim with the evaluations it rests on, so that
 // `verify` can run them again and judge anew.
 //   C0  k* is feasible at the base step and at half of it
-//   C1  k* is minimal in each variable: k_i (1 - delta) alone is rejected (fails at one step)
+//   C1  k* is minimal in each variable: k_i (1 - delta) alone is rejected (fails at one step); of a
+//       largest value k_i / (1 - delta). What the objective leaves free is then also moved by the
+//       neighbourhood to either side. Of a response: both of every variable, as far as the range
+//       goes, are rejected or not better
 //   C2  no point of the declared scan below k* (smaller objective) is accepted
 //   C3  the error falls in k about k*: f = log10 max(error / tolerance) drops from the lower
 //       neighbour to k* and from k* to the upper one by more than the noise. Noise is the larger
 //       of |f(h) - f(h/2)| at k* and the largest rise of f between evaluated points in between.
 //       Of several variables each decides some components only: f must drop up to k* along each,
-//       and beyond k* may stay.
+//       and beyond k* may stay. Claimed of variables in the objective; of a largest one f rises.
 //   C4  of two and three variables: nothing lower by more than the gap, if errors are monotone
 //       (monotone_proof.h)
 // A claim is certified, refuted (an evaluation says otherwise), or inconclusive (an evaluation is
@@ -56,7 +59,10 @@ struct CertificateTerms {
   std::vector<double> point;  // k*, (n)
   std::vector<TunedVariable> variables;
   std::vector<MatchComponent> components;
+  std::optional<ResponseObjective> response = {};
+  double objective = 0.0;  // at k*
   double delta = 0.0;
+  double neighbourhood = 0.0;
   std::vector<std::vector<double>> scan;              // the declared scan
   std::vector<std::vector<double>> lower_neighbours;  // of C3, one per variable
   std::vector<std::vector<double>> upper_neighbours;

@@ -18,15 +18,14 @@ using Clock = std::chrono::steady_clock;
 class Run {
  public:
   Run(EvaluationLog& log, const std::vector<double>& start, std::size_t budget, nlopt::opt& opt)
-      : log_(log), start_(start), budget_(budget), opt_(opt), begin_(Clock::now()) {}
+      : log_(log), start_(start), budget_(budget), opt_(opt), begin_(Clock::now()) {
+    const Observation* seen = log.find(start, 1.0);
+    const double own = seen == nullptr ? 0.0 : std::abs(log.objective(*seen));
+    if (own > 0.0 && std::isfinite(own)) scale_ = own;
+  }
 
   static double objective(unsigned n, const double* s, double* /*gradient*/, void* run) {
-    static_cast<Run*>(run)->count_call();
-    double sum = 0.0;
-    for (unsigned j = 0; j < n; ++j) {
-      sum += s[j];
-    }
-    return sum;
+    return static_cast<Run*>(run)->find_objective({s, s + n});
   }
 
   static void constraints(unsigned m, double* g, unsigned n, const double* s, double* /*gradient*/,
@@ -75,6 +74,25 @@ class Run {
       stopped_ = why;
     }
     opt_.force_stop();
+  }
+
+  double find_objective(const std::vector<double>& s) noexcept {
+    const std::vector<TunedVariable>& variables = log_.problem().variables;
+    if (!log_.problem().response) {
+      keep_exception([&] { count_call(); });
+      double sum = 0.0;
+      for (std::size_t j = 0; j < s.size(); ++j) sum += variables[j].weight * s[j];
+      return sum;
+    }
+    double value = worst_ + 1.0;  // of what has none
+    keep_exception([&] {
+      count_call();
+      const Observation* seen = stopped_.empty() ? observe(s) : nullptr;
+      if (seen == nullptr || !std::isfinite(log_.objective(*seen))) return;
+      value = log_.objective(*seen) / scale_;
+      worst_ = std::max(worst_, value);
+    });
+    return value;
   }
 
   // Nothing may leave through the frames of NLopt's C code.
@@ -130,6 +148,8 @@ class Run {
   std::size_t budget_;
   nlopt::opt& opt_;
   Clock::time_point begin_;
+  double scale_ = 1.0;  // of a response
+  double worst_ = 0.0;  // over the scale
   std::size_t calls_ = 0;
   std::string stopped_;
   bool is_spent_ = false;
@@ -204,6 +224,17 @@ Ending optimize(nlopt::opt& opt, const Run& run, const std::vector<double>& star
   return ending;
 }
 
+double objective_at(const EvaluationLog& log, const std::vector<double>& x) {
+  const Observation* seen = log.find(x, 1.0);
+  return compute_objective(log.problem(), x, seen == nullptr ? Answer{} : seen->answer);
+}
+
+// Decades; of a response a part of its size.
+double least_gain(const EvaluationLog& log, double objective) {
+  const double resolution = log.options().resolution;
+  return log.problem().response ? resolution * std::abs(objective) : resolution;
+}
+
 // Our own incumbent: the lowest feasible point among the start and what was seen since `first`.
 std::vector<double> find_lowest(const EvaluationLog& log, const std::vector<double>& start,
                                 std::size_t first) {
@@ -214,9 +245,8 @@ std::vector<double> find_lowest(const EvaluationLog& log, const std::vector<doub
   for (std::size_t i = first; i < log.observations().size(); ++i) {
     const Observation& seen = log.observations()[i];
     const bool is_feasible = compute_ratio(seen.answer, log.problem().components) <= 1.0;
-    if (!is_feasible) continue;
-    const double objective = compute_objective(seen.request.x);
-    if (!is_feasible_yet || objective < compute_objective(lowest)) {
+    if (!is_feasible || seen.request.step_factor != 1.0) continue;
+    if (!is_feasible_yet || log.objective(seen) < objective_at(log, lowest)) {
       lowest = seen.request.x;
       is_feasible_yet = true;
     }
@@ -234,7 +264,8 @@ std::string find_fault(const EvaluationLog& log, const Ending& ending,
   if (find_violation(seen->answer, log.problem().components) > slack) {
     return "it returned a point that does not match";
   }
-  if (compute_objective(ending.x) > compute_objective(lowest) + slack) {
+  const double least = objective_at(log, lowest);
+  if (objective_at(log, ending.x) > least + 2.0 * least_gain(log, least)) {
     return "it returned a point above one that matches";
   }
   return {};
@@ -298,8 +329,8 @@ NloptReport confirm_with_nlopt(EvaluationLog& log, const std::vector<double>& st
   if (!report.verified && fault != ending.ended) report.ended += ", not verified: " + fault;
   report.evaluations = log.observations().size() - first;
   report.lowest = lowest.front();
-  report.found_lower =
-      compute_objective(start) - compute_objective(lowest) > log.options().resolution;
+  const double least = objective_at(log, lowest);
+  report.found_lower = objective_at(log, start) - least > least_gain(log, least);
   return report;
 }
 

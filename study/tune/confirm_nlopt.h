@@ -1,5 +1,6 @@
-// NLopt asks whether anything lower matches: minimise sum_j s_j subject to
+// NLopt asks whether anything lower matches: minimise sum_j weight_j s_j subject to
 //   g_i(s) = log10(error_i / tolerance_i) <= 0,    x_j = start_j * 10^(s_j),
+// (or a response over its size at the start)
 // with s in decades from the point found, bounded by the declared range. COBYLA asks first,
 // with an explicit initial step; its answer verifies when it ended by its own tolerance, within
 // twice the resolution of the lowest feasible point known, and g there is no more than that. Where

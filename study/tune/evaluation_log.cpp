@@ -75,6 +75,14 @@ EvaluationLog::EvaluationLog(const TuningProblem& problem, const TuningOptions& 
                              EvaluateBatch evaluate)
     : problem_(problem), options_(options), evaluate_(std::move(evaluate)) {}
 
+double EvaluationLog::objective(const Observation& seen) const {
+  return compute_objective(problem_, seen.request.x, seen.answer);
+}
+
+std::size_t EvaluationLog::budget() const {
+  return options_.max_evaluations.value_or(usual_budget(problem_.variables.size()));
+}
+
 bool EvaluationLog::evaluate(const std::vector<Request>& requests) {
   std::vector<Request> fresh;
   std::set<Key> asked;

@@ -50,7 +50,10 @@ class EvaluationLog {
   const std::vector<Observation>& observations() const { return observations_; }
   const TuningProblem& problem() const { return problem_; }
   const TuningOptions& options() const { return options_; }
-  std::size_t remaining() const { return options_.max_evaluations - observations_.size(); }
+  // What is minimised (tuning_problem.h).
+  double objective(const Observation& seen) const;
+  std::size_t budget() const;
+  std::size_t remaining() const { return budget() - observations_.size(); }
   std::size_t rounds() const { return rounds_; }
   bool exhausted() const { return exhausted_; }
 

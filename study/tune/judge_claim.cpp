@@ -72,11 +72,24 @@ Finding judge_feasible(const CertificateTerms& terms, const Evidence& evidence) 
   return {Verdict::inconclusive, seen};
 }
 
+// What is accepted refutes only where it is better, which the points of a sum are.
+bool is_better(const CertificateTerms& terms, const Evidence& evidence,
+               const std::vector<double>& x) {
+  if (!terms.response) return true;
+  const Observation* base = find(evidence, x, 1.0);
+  const bool is_known = base != nullptr && base->answer.status == Cause::ok;
+  return !is_known || base->answer.objective < terms.objective;
+}
+
 // All points must be rejected; the first accepted refutes, else the first open one leaves it open.
 Finding judge_rejected(const CertificateTerms& terms, const Evidence& evidence,
                        const std::vector<std::vector<double>>& points) {
-  Finding finding{Verdict::certified, fmt::format("{} of {} fail", points.size(), points.size())};
+  const std::string all = terms.response
+                              ? fmt::format("none of {} is better and matches", points.size())
+                              : fmt::format("{} of {} fail", points.size(), points.size());
+  Finding finding{Verdict::certified, all};
   for (const std::vector<double>& x : points) {
+    if (!is_better(terms, evidence, x)) continue;
     const Acceptance acceptance = accept(terms, evidence, x);
     if (acceptance == Acceptance::accepted) {
       return {Verdict::refuted, format_point(x) + " matches"};
@@ -91,14 +104,17 @@ Finding judge_rejected(const CertificateTerms& terms, const Evidence& evidence,
 }
 
 Finding judge_minimal(const CertificateTerms& terms, const Evidence& evidence) {
-  std::vector<std::vector<double>> points;
-  for (std::size_t i = 0; i < terms.point.size(); ++i) {
-    points.push_back(reduced_point(terms, i));
-    if (points.back()[i] < terms.variables[i].low) {
-      return {
-          Verdict::inconclusive,
-          fmt::format("the range of '{}' ends at {:.6g}, above k (1 - delta): lower its low end",
-                      terms.variables[i].path, terms.variables[i].low)};
+  const std::vector<std::vector<double>> points = points_about(terms);
+  for (const std::vector<double>& x : points) {
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const TunedVariable& variable = terms.variables[i];
+      if (x[i] >= variable.low && x[i] <= variable.high) continue;
+      const bool is_low = x[i] < variable.low;
+      return {Verdict::inconclusive,
+              fmt::format("the range of '{}' ends at {:.6g}, {}", variable.path,
+                          is_low ? variable.low : variable.high,
+                          is_low ? "above k (1 - delta): lower its low end"
+                                 : "below k / (1 - delta): raise its high end")};
     }
   }
   Finding finding = judge_rejected(terms, evidence, points);
@@ -117,18 +133,23 @@ Finding judge_scan(const CertificateTerms& terms, const Evidence& evidence) {
   return judge_rejected(terms, evidence, points);
 }
 
+double way_of(const CertificateTerms& terms, std::size_t i) {
+  return terms.variables[i].weight < 0.0 ? -1.0 : 1.0;
+}
+
 struct Sample {
   double value = 0.0;  // decades from k* along the axis
   double log_ratio = 0.0;
 };
 
-// Base-step samples along variable i from one neighbour to the other, ascending.
+// Base-step samples along variable i from one neighbour to the other, ascending; of a largest value
+// turned, so that the point lies above what fails.
 std::vector<Sample> samples_along(const CertificateTerms& terms, const Evidence& evidence,
                                   std::size_t i) {
   std::vector<Sample> samples;
   for (const Observation& observation : evidence) {
     std::vector<double> x = observation.request.x;
-    const double value = std::log10(x[i] / terms.point[i]);
+    const double value = way_of(terms, i) * std::log10(x[i] / terms.point[i]);
     const bool inside =
         is_below(terms.lower_neighbours[i], x) && is_below(x, terms.upper_neighbours[i]);
     x[i] = terms.point[i];
@@ -157,15 +178,18 @@ Finding judge_falling(const CertificateTerms& terms, const Evidence& evidence, s
   const Observation* base = find(evidence, terms.point, 1.0);
   const Observation* half = find(evidence, terms.point, 0.5);
   const std::vector<Sample> samples = samples_along(terms, evidence, i);
+  const double way = way_of(terms, i);
   const auto reach = [&](const std::vector<std::vector<double>>& neighbours) {
-    return std::log10(neighbours[i][i] / terms.point[i]);
+    return way * std::log10(neighbours[i][i] / terms.point[i]);
   };
+  const auto& failing = way > 0.0 ? terms.lower_neighbours : terms.upper_neighbours;
+  const auto& matching = way > 0.0 ? terms.upper_neighbours : terms.lower_neighbours;
   // Of several variables the window above may be a point: another one decides there.
   const bool is_alone = terms.point.size() == 1;
-  const bool has_lower = samples.size() >= 2 && samples.front().value < 0.0 &&
-                         samples.front().value == reach(terms.lower_neighbours);
-  const bool has_upper = samples.size() >= 3 && samples.back().value > 0.0 &&
-                         samples.back().value == reach(terms.upper_neighbours);
+  const bool has_lower =
+      samples.size() >= 2 && samples.front().value < 0.0 && samples.front().value == reach(failing);
+  const bool has_upper =
+      samples.size() >= 3 && samples.back().value > 0.0 && samples.back().value == reach(matching);
   const bool ends = has_lower && (has_upper || !is_alone);
   if (base == nullptr || half == nullptr || !ends) {
     return {Verdict::inconclusive, "a neighbour of k* was not evaluated or lies outside the range"};
@@ -189,6 +213,7 @@ Finding judge_neighbourhood(const CertificateTerms& terms, const Evidence& evide
   Finding worst{Verdict::certified, ""};
   bool is_first = true;
   for (std::size_t i = 0; i < terms.point.size(); ++i) {
+    if (terms.variables[i].weight == 0.0) continue;
     Finding finding = judge_falling(terms, evidence, i);
     if (terms.point.size() > 1) finding.reason += " along " + terms.variables[i].path;
     const bool is_worse =
@@ -220,19 +245,67 @@ Finding judge_proof(const CertificateTerms& terms, const Evidence& evidence) {
 
 }  // namespace
 
-std::vector<double> reduced_point(const CertificateTerms& terms, std::size_t i) {
-  std::vector<double> x = terms.point;
-  x[i] *= 1.0 - terms.delta;
-  return x;
+std::vector<std::vector<double>> points_about(const CertificateTerms& terms, std::size_t i) {
+  std::vector<double> reduced = terms.point;
+  std::vector<double> raised = terms.point;
+  reduced[i] *= 1.0 - terms.delta;
+  raised[i] /= 1.0 - terms.delta;
+  if (terms.response) {
+    std::vector<std::vector<double>> points = {reduced, raised};
+    std::erase_if(points, [&](const auto& x) { return !is_in_range(terms, x); });
+    return points;
+  }
+  const double weight = terms.variables[i].weight;
+  if (weight == 0.0) return {};
+  std::vector<std::vector<double>> points = {weight > 0.0 ? reduced : raised};
+  for (std::size_t j = 0; j < terms.point.size(); ++j) {
+    if (terms.variables[j].weight != 0.0) continue;
+    for (const double decades : {-terms.neighbourhood, terms.neighbourhood}) {
+      std::vector<double> x = points.front();
+      x[j] = move_along(terms.variables[j], x[j], decades);
+      if (x != points.front()) points.push_back(std::move(x));
+    }
+  }
+  return points;
+}
+
+std::vector<std::vector<double>> points_about(const CertificateTerms& terms) {
+  std::vector<std::vector<double>> points;
+  for (std::size_t i = 0; i < terms.point.size(); ++i) {
+    std::ranges::copy(points_about(terms, i), std::back_inserter(points));
+  }
+  return points;
+}
+
+bool is_in_range(const CertificateTerms& terms, const std::vector<double>& x) {
+  for (std::size_t j = 0; j < x.size(); ++j) {
+    if (x[j] < terms.variables[j].low || x[j] > terms.variables[j].high) return false;
+  }
+  return true;
+}
+
+std::string minimality_statement(const CertificateTerms& terms) {
+  if (terms.response) {
+    return fmt::format("no single value changed by {:g} is better and matches", terms.delta);
+  }
+  const auto has_weight = [&](double weight) {
+    return std::ranges::count(terms.variables, weight, &TunedVariable::weight) > 0;
+  };
+  std::string text = fmt::format("every k_i (1 - {:g}) alone fails", terms.delta);
+  if (has_weight(0.0)) text = fmt::format("k (1 - {:g}) fails", terms.delta);
+  if (has_weight(-1.0)) text = fmt::format("k / (1 - {:g}) fails", terms.delta);
+  if (has_weight(0.0)) {
+    text +=
+        fmt::format(", also with a free value {:g} decades to either side", terms.neighbourhood);
+  }
+  return text;
 }
 
 std::vector<std::vector<double>> scan_below(const CertificateTerms& terms) {
   std::vector<std::vector<double>> points;
-  const double objective = compute_objective(terms.point);
+  const TuningProblem problem{terms.variables, {}, {}};
   for (const std::vector<double>& x : terms.scan) {
-    if (compute_objective(x) < objective) {
-      points.push_back(x);
-    }
+    if (terms.response || compute_objective(problem, x, {}) < terms.objective) points.push_back(x);
   }
   return points;
 }

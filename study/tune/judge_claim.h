@@ -5,10 +5,14 @@
 
 namespace linkstudy::tuning {
 
-// k* with variable i reduced to k_i (1 - delta).
-std::vector<double> reduced_point(const CertificateTerms& terms, std::size_t i);
+// The points about k* that C1 takes along variable i, and all of them; those of a value that the
+// objective wants smaller or larger may lie outside its range.
+std::vector<std::vector<double>> points_about(const CertificateTerms& terms, std::size_t i);
+std::vector<std::vector<double>> points_about(const CertificateTerms& terms);
+bool is_in_range(const CertificateTerms& terms, const std::vector<double>& x);
+std::string minimality_statement(const CertificateTerms& terms);
 
-// Points of the declared scan with a smaller objective than k*.
+// Points of the declared scan with a smaller objective than k*; all where that is a response.
 std::vector<std::vector<double>> scan_below(const CertificateTerms& terms);
 
 // Sets verdict and reason of the claim by its name.

@@ -53,7 +53,7 @@ struct MonotoneProof {
   double gap() const { return objective - covered; }
 };
 
-// Of two or three variables.
+// Of two or three variables whose sum of log10 is minimised.
 bool can_be_proven(const TuningProblem& problem);
 
 Position position_of(const std::vector<double>& x);

@@ -7,6 +7,8 @@
 #include "study/tune/axis_search.h"
 #include "study/tune/find_window.h"
 #include "study/tune/lockstep.h"
+#include "study/tune/search_section.h"
+#include "study/tune/variable_axis.h"
 
 namespace linkstudy::tuning {
 namespace {
@@ -66,10 +68,73 @@ std::vector<double> descend_axis(EvaluationLog& log, const std::vector<double>& 
   return lower;
 }
 
+// The lower end of the interval that matches about v.
+void find_low_end(EvaluationLog& axis, double v, Window& window) {
+  look_below(axis, v);
+  const std::vector<double> values = axis.base_values();
+  double low = v;
+  auto at = std::ranges::find(values, v);
+  while (at != values.begin() && matches_at_base(axis, *(at - 1))) low = *--at;
+  window.low_open = at == values.begin();
+  if (!window.low_open) {
+    const SectionSettings settings{WindowEnd::lower, Steps::base, axis.options().resolution,
+                                   "window"};
+    low = search_section(axis, {*(at - 1), low}, settings).feasible;
+  }
+  window.low = low;
+  window.margin_decades = std::log10(window.high / low);
+}
+
 Window find_axis_window(AxisSearch& axis) {
   const double v = axis.start();
   look_above(axis.log(), v);
-  return find_window(axis.log(), v);
+  Window window = find_window(axis.log(), v);
+  const TuningProblem& problem = axis.log().problem();
+  const bool begins_here = !problem.response && problem.variables.front().weight > 0.0;
+  if (!begins_here) find_low_end(axis.log(), v, window);
+  return window;
+}
+
+// Better than another, in this order: the objective, then the distance from the tolerances.
+struct Merit {
+  double objective = 0.0;
+  double ratio = 0.0;
+  bool is_better_than(const Merit& other) const {
+    const double slack = 1e-9 * std::max(1.0, std::abs(other.objective));
+    if (std::abs(objective - other.objective) > slack) return objective < other.objective;
+    return ratio < other.ratio * (1.0 - 1e-4);
+  }
+};
+
+// The best match among the neighbours at `decades` along the axes that is better than the point.
+std::optional<std::vector<double>> find_better(EvaluationLog& log, const std::vector<double>& point,
+                                               double decades) {
+  std::vector<std::vector<double>> neighbours;
+  std::vector<Request> requests;
+  for (std::size_t j = 0; j < point.size(); ++j) {
+    for (const double way : {-decades, decades}) {
+      std::vector<double> x = point;
+      x[j] = move_along(log.problem().variables[j], x[j], way);
+      neighbours.push_back(x);
+      requests.push_back({x, 1.0, "polish"});
+    }
+  }
+  log.evaluate(requests);
+  const auto merit_of = [&](const std::vector<double>& x) {
+    const Observation& seen = *log.find(x, 1.0);
+    return Merit{log.objective(seen), compute_ratio(seen.answer, log.problem().components)};
+  };
+  std::erase_if(neighbours, [&](const std::vector<double>& x) {
+    return !log.is_candidate(x) || !merit_of(x).is_better_than(merit_of(point));
+  });
+  std::ranges::stable_sort(neighbours, [&](const auto& a, const auto& b) {
+    return merit_of(a).is_better_than(merit_of(b));
+  });
+  for (const std::vector<double>& x : neighbours) {
+    log.evaluate({{x, 0.5, "polish"}});
+    if (log.acceptance(x) == Acceptance::accepted) return x;
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -93,7 +158,7 @@ std::optional<std::vector<double>> settle_lowest(EvaluationLog& log, std::size_t
     double objective = 0.0;
     for (const Observation& seen : log.observations()) {
       if (seen.request.step_factor != 1.0 || !log.is_candidate(seen.request.x)) continue;
-      const double own = compute_objective(seen.request.x);
+      const double own = log.objective(seen);
       if (lowest != nullptr && own >= objective) continue;
       lowest = &seen;
       objective = own;
@@ -115,6 +180,19 @@ std::vector<double> polish_point(EvaluationLog& log, std::vector<double> point,
       point = descend_axis(log, point, j, reserve);
     }
     if (before - compute_objective(point) <= log.options().resolution) break;
+  }
+  return point;
+}
+
+std::vector<double> polish_freely(EvaluationLog& log, std::vector<double> point,
+                                  std::size_t reserve) {
+  constexpr double kFirstStep = 0.1;          // decades
+  const std::size_t most = 4 * point.size();  // of evaluations in a round
+  double decades = kFirstStep;
+  while (decades >= log.options().resolution && budget_of(log, reserve) > most) {
+    const auto better = find_better(log, point, decades);
+    if (better) point = *better;
+    if (!better) decades *= 0.5;
   }
   return point;
 }

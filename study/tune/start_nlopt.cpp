@@ -38,8 +38,7 @@ std::vector<std::vector<double>> choose_starts(const EvaluationLog& log, std::si
   for (const Observation& seen : log.observations()) {
     const double ratio = compute_ratio(seen.answer, log.problem().components);
     if (seen.request.step_factor != 1.0 || !std::isfinite(ratio)) continue;
-    ranked.push_back(
-        {std::max(0.0, std::log10(ratio)), compute_objective(seen.request.x), seen.request.x});
+    ranked.push_back({std::max(0.0, std::log10(ratio)), log.objective(seen), seen.request.x});
   }
   std::ranges::stable_sort(ranked, std::less<>());
   std::vector<std::vector<double>> starts;
@@ -65,13 +64,13 @@ NloptReport search_from(EvaluationLog& log, const std::vector<std::vector<double
   options.initial_step = initial_step;
   options.confirm_evaluations = kPerVariable * log.problem().variables.size();
   options.confirm_calls = 4 * options.confirm_evaluations;
-  options.max_evaluations = available / starts.size();
+  const std::size_t share = available / starts.size();
   std::vector<NloptReport> reports(starts.size());
   std::vector<LockstepSearch> searches;
   for (std::size_t i = 0; i < starts.size(); ++i) {
     searches.push_back([&, i](const EvaluateBatch& ask) {
       TuningOptions own = options;
-      own.max_evaluations += 1;  // the start, which is known
+      own.max_evaluations = share + 1;  // and the start, which is known
       EvaluationLog known(log.problem(), own, ask);
       known.evaluate({{starts[i], 1.0, "nlopt"}});
       reports[i] = confirm_with_nlopt(known, starts[i], 0);

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 
 #include "study/tune/find_window.h"
+#include "study/tune/step_reach.h"
 #include "study/tune/tune_box.h"
 
 namespace linkstudy::tuning {
@@ -82,6 +84,41 @@ void probe_lower_candidate(EvaluationLog& log, double value) {
     log.evaluate({{{*candidate}, 0.5, "half_step"}});
   }
 }
+
+// Answers by point and multiple of the base step, over all targets.
+class KnownAnswers {
+ public:
+  explicit KnownAnswers(const EvaluateBatch& evaluate) : evaluate_(evaluate) {}
+
+  std::vector<Answer> answer(std::vector<Request> requests, double step_factor) {
+    std::vector<Request> fresh;
+    for (Request& request : requests) {
+      request.step_factor *= step_factor;
+      if (known_.contains(key_of(request))) {
+        ++shared_;
+      } else {
+        fresh.push_back(request);
+      }
+    }
+    if (!fresh.empty()) {
+      const std::vector<Answer> answers = evaluate_(fresh);
+      for (std::size_t i = 0; i < fresh.size(); ++i) known_[key_of(fresh[i])] = answers.at(i);
+    }
+    std::vector<Answer> all;
+    for (const Request& request : requests) all.push_back(known_.at(key_of(request)));
+    return all;
+  }
+
+  std::size_t shared() const { return shared_; }
+
+ private:
+  using Key = std::pair<std::vector<double>, double>;
+  static Key key_of(const Request& request) { return {request.x, request.step_factor}; }
+
+  const EvaluateBatch& evaluate_;
+  std::map<Key, Answer> known_;
+  std::size_t shared_ = 0;
+};
 
 struct Search {
   double value = 0.0;
@@ -160,7 +197,7 @@ void describe_window(EvaluationLog& log, Search search, TuningResult& result) {
     search.terms = terms_at(log, value, search.window);
   }
   result.point = {value};
-  result.objective = compute_objective(result.point);
+  result.objective = search.terms.objective;
   result.answer = log.find(result.point, 1.0)->answer;
   result.answer_value = value;
   result.binding = find_binding(result.answer, log.problem().components);
@@ -179,7 +216,8 @@ void describe_window(EvaluationLog& log, Search search, TuningResult& result) {
 TuningResult tune(const TuningProblem& problem, const TuningOptions& options,
                   const EvaluateBatch& evaluate) {
   require_valid(problem, options);
-  if (problem.variables.size() > 1) return tune_box(problem, options, evaluate);
+  const bool is_lowest_of_one = problem.variables.size() == 1 && is_lowest_sum(problem);
+  if (!is_lowest_of_one) return tune_box(problem, options, evaluate);
   EvaluationLog log(problem, options, evaluate);
   TuningResult result;
   result.problem = problem;
@@ -191,6 +229,7 @@ TuningResult tune(const TuningProblem& problem, const TuningOptions& options,
     describe_empty_window(log, result);
   }
   result.points = classify_points(log);
+  if (!result.point.empty()) result.step_reach = find_step_reach(log, result.point);
   result.observations = log.observations();
   result.first_failure = find_first_failure(log);
   result.rounds = log.rounds();
@@ -198,6 +237,20 @@ TuningResult tune(const TuningProblem& problem, const TuningOptions& options,
     add_notes(options, result);
   }
   return result;
+}
+
+std::vector<TuningResult> tune(const std::vector<TuningTarget>& targets,
+                               const TuningOptions& options, const EvaluateBatch& evaluate) {
+  KnownAnswers known(evaluate);
+  std::vector<TuningResult> results;
+  for (const TuningTarget& target : targets) {
+    const std::size_t before = known.shared();
+    results.push_back(tune(target.problem, options, [&](const std::vector<Request>& requests) {
+      return known.answer(requests, target.step_factor);
+    }));
+    results.back().shared = known.shared() - before;
+  }
+  return results;
 }
 
 }  // namespace linkstudy::tuning

@@ -9,6 +9,7 @@
 #include "study/tune/polish_point.h"
 #include "study/tune/scan_box.h"
 #include "study/tune/start_nlopt.h"
+#include "study/tune/step_reach.h"
 
 namespace linkstudy::tuning {
 namespace {
@@ -19,8 +20,7 @@ constexpr double kWideStep = 0.25;    // of NLopt from the scan, decades
 constexpr double kNarrowStep = 0.03;  // from a match that the proof found
 
 std::size_t evidence_reserve(const EvaluationLog& log) {
-  return std::min<std::size_t>(log.options().max_evaluations / 4,
-                               8 + 24 * log.problem().variables.size());
+  return std::min<std::size_t>(log.budget() / 4, 8 + 24 * log.problem().variables.size());
 }
 
 class BoxTuning {
@@ -51,7 +51,7 @@ class BoxTuning {
  private:
   void search() {
     for (int pass = 0; pass < kMostPolishes; ++pass) {
-      point_ = polish_point(log_, settle_lowest(log_, reserve_).value(), reserve_);
+      point_ = polish(settle_lowest(log_, reserve_).value());
       gather_evidence();
       if (settle_lowest(log_, 0).value() != point_ && improves()) continue;
       if (!can_be_proven(log_.problem())) return;
@@ -63,9 +63,19 @@ class BoxTuning {
     }
   }
 
+  std::vector<double> polish(std::vector<double> point) {
+    return is_lowest_sum(log_.problem()) ? polish_point(log_, std::move(point), reserve_)
+                                         : polish_freely(log_, std::move(point), reserve_);
+  }
+
+  double objective_at(const std::vector<double>& x) const {
+    return log_.objective(*log_.find(x, 1.0));
+  }
+
   bool improves() {
-    return compute_objective(point_) - compute_objective(settle_lowest(log_, 0).value()) >
-           log_.options().resolution;
+    const double gain = objective_at(point_) - objective_at(settle_lowest(log_, 0).value());
+    const double size = log_.problem().response ? std::abs(objective_at(point_)) : 1.0;
+    return gain > log_.options().resolution * size;
   }
 
   void gather_evidence() {
@@ -88,7 +98,7 @@ class BoxTuning {
     result_.answer = log_.find(point_, 1.0)->answer;
     result_.answer_value = point_.front();
     result_.binding = find_binding(result_.answer, log_.problem().components);
-    result_.objective = compute_objective(point_);
+    result_.objective = objective_at(point_);
     result_.windows = windows_;
     result_.window = windows_.front();
     result_.certificate = make_certificate(terms_, log_);
@@ -137,17 +147,21 @@ class BoxTuning {
 
   void finish() {
     result_.points = classify_box(log_, scan_);
+    if (!result_.point.empty()) result_.step_reach = find_step_reach(log_, point_);
     result_.observations = log_.observations();
     result_.rounds = log_.rounds();
     result_.first_failure = find_first_failure(log_);
-    if (result_.point.empty()) return;
-    add_notes();
+    if (!result_.point.empty()) add_notes();
+    if (result_.problem.variables.size() == 1) result_.windows.clear();
   }
 
   void add_notes() {
-    for (std::size_t j = 0; j < point_.size(); ++j) {
+    for (std::size_t j = 0; j < point_.size() && !log_.problem().response; ++j) {
       const TunedVariable& variable = log_.problem().variables[j];
-      if (!windows_[j].low_open) continue;
+      const bool is_open = variable.weight > 0.0
+                               ? windows_[j].low_open
+                               : variable.weight < 0.0 && point_[j] == variable.high;
+      if (!is_open) continue;
       result_.notes.push_back(
           fmt::format("'{}' matches to the end of its range at {:.6g}: extend it to find the "
                       "boundary",

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -49,7 +50,7 @@ void check_counts(const TuningOptions& options, std::vector<Problem>& problems) 
   if (options.batch < 1) {
     problems.push_back({"batch", "batch is 0", "use at least 1"});
   }
-  if (options.max_evaluations < 1) {
+  if (options.max_evaluations && *options.max_evaluations < 1) {
     problems.push_back({"max_evaluations", "max_evaluations is 0", "use at least 1"});
   }
 }
@@ -86,12 +87,34 @@ std::vector<Problem> check(const TuningProblem& problem, const TuningOptions& op
   return problems;
 }
 
+std::size_t usual_budget(std::size_t variables) {
+  return variables < 2 ? 200 : variables == 2 ? 1500 : 4000;
+}
+
 double compute_objective(const std::vector<double>& x) {
   double sum = 0.0;
   for (const double value : x) {
     sum += std::log10(value);
   }
   return sum;
+}
+
+double compute_objective(const TuningProblem& problem, const std::vector<double>& x,
+                         const Answer& answer) {
+  if (problem.response) {
+    const bool is_known = answer.status == Cause::ok && std::isfinite(answer.objective);
+    return is_known ? answer.objective : std::numeric_limits<double>::infinity();
+  }
+  double sum = 0.0;
+  for (std::size_t j = 0; j < x.size(); ++j) {
+    sum += problem.variables[j].weight * std::log10(x[j]);
+  }
+  return sum;
+}
+
+bool is_lowest_sum(const TuningProblem& problem) {
+  const auto counts = [](const TunedVariable& variable) { return variable.weight == 1.0; };
+  return !problem.response && std::ranges::all_of(problem.variables, counts);
 }
 
 }  // namespace linkstudy::tuning

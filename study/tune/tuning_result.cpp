@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 namespace linkstudy::tuning {
 
@@ -18,9 +19,48 @@ TuningStatus status_of(Verdict verdict) {
   return TuningStatus::inconclusive;
 }
 
+TuningStatus worst_of(const std::vector<TuningResult>& results) {
+  TuningStatus worst = TuningStatus::certified;
+  const auto weight_of = [](TuningStatus status) {
+    constexpr std::array kAscending = {TuningStatus::certified, TuningStatus::inconclusive,
+                                       TuningStatus::infeasible, TuningStatus::refuted};
+    return std::ranges::find(kAscending, status) - kAscending.begin();
+  };
+  for (const TuningResult& one : results) {
+    if (weight_of(one.status) > weight_of(worst)) worst = one.status;
+  }
+  return worst;
+}
+
+double tolerance_of(const TuningResult& result) {
+  return result.problem.components.front().tolerance;
+}
+
+double step_of(const TuningResult& result) {
+  for (const Observation& seen : result.observations) {
+    if (seen.request.step_factor == 1.0) return seen.answer.step;
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+const std::string& binding_name(const TuningResult& result) {
+  return result.problem.components[result.binding].name;
+}
+
+double shown_objective(const TuningResult& result) {
+  if (result.problem.response) {
+    return result.problem.response->maximizes ? -result.objective : result.objective;
+  }
+  if (is_lowest_sum(result.problem)) return result.objective;
+  const auto own =
+      std::ranges::find_if(result.problem.variables,
+                           [](const TunedVariable& variable) { return variable.weight != 0.0; });
+  return result.point[static_cast<std::size_t>(own - result.problem.variables.begin())];
+}
+
 std::string budget_reason(const EvaluationLog& log) {
   return fmt::format("the budget of {} evaluations is used up: raise max_evaluations",
-                     log.options().max_evaluations);
+                     log.budget());
 }
 
 void doubt_no_match(const EvaluationLog& log, TuningResult& result) {
@@ -35,7 +75,8 @@ void doubt_no_match(const EvaluationLog& log, TuningResult& result) {
 
 std::optional<Observation> find_first_failure(const EvaluationLog& log) {
   for (const Observation& seen : log.observations()) {
-    if (seen.answer.status != Cause::ok) return seen;
+    const bool is_of_search = seen.request.step_factor <= 1.0;
+    if (is_of_search && seen.answer.status != Cause::ok) return seen;
   }
   return std::nullopt;
 }

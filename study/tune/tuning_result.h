@@ -6,6 +6,7 @@
 #include "study/tune/certificate.h"
 #include "study/tune/confirm_nlopt.h"
 #include "study/tune/scan_window.h"
+#include "study/tune/step_reach.h"
 #include "study/tune/suggest_step.h"
 
 namespace linkstudy::tuning {
@@ -49,7 +50,7 @@ struct TuningResult {
   std::string reason;  // one line; empty when certified
   TuningProblem problem;
   std::vector<double> point;  // lowest that matches, or the lowest seen; empty when none
-  double objective = 0.0;     // sum of log10
+  double objective = 0.0;     // what was minimised
   // Of the point at the base step; when no point matches, of the one with the smallest ratio.
   Answer answer;
   double answer_value = 0.0;                 // where that is
@@ -60,10 +61,12 @@ struct TuningResult {
   std::vector<Observation> staircase;        // the same, minimal points by their objective
   std::optional<Certificate> certificate;
   std::optional<StepSuggestion> suggestion;  // when no point matches
+  std::optional<StepReach> step_reach;       // at the point
   NloptReport nlopt;
   std::vector<ScanPoint> points;          // every value tried at the base step, with its side
   std::vector<Observation> observations;  // every evaluation in the order asked
   std::size_t rounds = 0;                 // batches asked for
+  std::size_t shared = 0;                 // of the observations those that an earlier target asked
   std::vector<std::string> notes;         // what else the user should know
 };
 
@@ -72,9 +75,21 @@ inline const TunedVariable& variable_of(const TuningResult& result) {
   return result.problem.variables.front();
 }
 
+// The worst of several.
+TuningStatus worst_of(const std::vector<TuningResult>& results);
+
+// Of the first match, and s; what tells the results of several targets apart.
+double tolerance_of(const TuningResult& result);
+double step_of(const TuningResult& result);
+const std::string& binding_name(const TuningResult& result);
+// What was minimised as it is written in the file: the largest value of a response, a tuned value,
+// or the sum of log10.
+double shown_objective(const TuningResult& result);
+
 std::string budget_reason(const EvaluationLog& log);
 // Where the budget or the machine ended the search, that nothing matches is not known.
 void doubt_no_match(const EvaluationLog& log, TuningResult& result);
+// Of the search; larger steps at the answer may end as they like.
 std::optional<Observation> find_first_failure(const EvaluationLog& log);
 // Of the answer.
 void note_coarse_step(TuningResult& result);

@@ -6,8 +6,16 @@
 
 namespace linkstudy {
 
-tuning::TuningProblem make_tuning_problem(const Evaluator& evaluator);
+// The step of the model as base.set leaves it, with tuned values at their low ends. Throws
+// InputError.
+double base_step_of(const StudyInput& input);
+
+// An answer for every step and, at each, for every tolerance.
+std::vector<tuning::TuningTarget> make_tuning_targets(const Evaluator& evaluator);
 tuning::TuningOptions make_tuning_options(const StudyInput& input);
+
+// The budget of all answers.
+std::uint64_t most_tuning_evaluations(const StudyInput& input);
 
 // What this version does not tune, at its places.
 void check_tune(const StudyInput& input, Diagnostics& diagnostics);

@@ -44,8 +44,12 @@ Table make_result_table(const TuningResult& result) {
   table.add("evaluations", "", "how many it took",
             [](const Result& r) { return to_count(r.observations.size()); });
   table.add("rounds", "", "batches asked for", [](const Result& r) { return to_count(r.rounds); });
-  table.add("objective", "", "sum of log10 of the values",
-            [&](const Result& r) { return matches ? r.objective : kNan; });
+  table.add("objective", "", "what is best: the sum of log10 of the values, or what the file says",
+            [&](const Result& r) { return matches ? shown_objective(r) : kNan; });
+  table.add("largest_step", "s", "that matches at the answer, of the multiples tried",
+            [](const Result& r) { return r.step_reach ? r.step_reach->step : kNan; });
+  table.add("step_limit", "s", "of stability, at the answer",
+            [&](const Result& r) { return matches ? r.answer.step_limit : kNan; });
   return table.take();
 }
 
@@ -74,8 +78,8 @@ Table make_box_table(const TuningResult& result) {
   });
   table.add("status", "", "verdict of the certificate, or infeasible",
             [&](const Row&) { return std::string(name_of(result.status)); });
-  table.add("objective", "", "sum of log10 of the values",
-            [&](const Row&) { return matches ? result.objective : kNan; });
+  table.add("objective", "", "what is best: the sum of log10 of the values, or what the file says",
+            [&](const Row&) { return matches ? shown_objective(result) : kNan; });
   table.add("evaluations", "", "how many it took",
             [&](const Row&) { return to_count(result.observations.size()); });
   return table.take();
@@ -150,7 +154,67 @@ Table make_evaluation_table(const TuningResult& result) {
   return table.take();
 }
 
+// Values of a column that a table lacks.
+ColumnValues missing_like(const ColumnValues& values, std::size_t rows) {
+  return std::visit(
+      [rows](const auto& own) -> ColumnValues {
+        using Values = std::decay_t<decltype(own)>;
+        if constexpr (std::is_same_v<Values, std::vector<double>>) return Values(rows, kNan);
+        return Values(rows);
+      },
+      values);
+}
+
+void append_values(ColumnValues& to, const ColumnValues& from) {
+  std::visit(
+      [&](auto& own) {
+        const auto& other = std::get<std::decay_t<decltype(own)>>(from);
+        own.insert(own.end(), other.begin(), other.end());
+      },
+      to);
+}
+
+// Below the rows of `whole`, by the names of columns.
+void stack(Table& whole, const Table& part) {
+  const std::size_t before = row_count(whole);
+  const std::size_t rows = row_count(part);
+  for (const Column& column : part.columns) {
+    if (find_column(whole, column.name) != nullptr) continue;
+    whole.columns.push_back(column);
+    whole.columns.back().values = missing_like(column.values, before);
+  }
+  for (Column& column : whole.columns) {
+    const Column* own = find_column(part, column.name);
+    append_values(column.values, own == nullptr ? missing_like(column.values, rows) : own->values);
+  }
+}
+
+void add_target(Table& table, const TuningResult& result) {
+  const std::size_t rows = row_count(table);
+  const auto add = [&](const char* name, const char* unit, const char* meaning, double value) {
+    table.columns.insert(table.columns.begin(),
+                         Column{name, unit, meaning, "tuning", std::vector<double>(rows, value)});
+  };
+  add("target_step", "s", "of integration", step_of(result));
+  add("target_tolerance", "1", "of the first match", tolerance_of(result));
+}
+
 }  // namespace
+
+std::vector<Table> make_tables(const std::vector<TuningResult>& results) {
+  if (results.size() == 1) return make_tables(results.front());
+  std::vector<Table> whole;
+  for (const TuningResult& result : results) {
+    std::vector<Table> tables = make_tables(result);
+    for (Table& table : tables) add_target(table, result);
+    if (whole.empty()) {
+      whole = std::move(tables);
+      continue;
+    }
+    for (std::size_t i = 0; i < whole.size(); ++i) stack(whole[i], tables[i]);
+  }
+  return whole;
+}
 
 std::vector<Table> make_tables(const TuningResult& result) {
   return {result.problem.variables.size() == 1 ? make_result_table(result) : make_box_table(result),

@@ -1,4 +1,4 @@
-// A tuning result as tables, for the results file and for `export`.
+// Tuning results as tables, for the results file and for `export`.
 #pragma once
 
 #include <vector>
@@ -12,5 +12,7 @@ namespace linkstudy::tuning {
 // the answer, "scan" (every value tried at the base step), "certificate" (one row a claim, ids
 // separated by blanks), "evaluations" (every one, in the order asked).
 std::vector<Table> make_tables(const TuningResult& result);
+// Of several targets: the same tables, one under the other, with tolerance and step in front.
+std::vector<Table> make_tables(const std::vector<TuningResult>& results);
 
 }  // namespace linkstudy::tuning

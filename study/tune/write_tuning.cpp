@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "study/record/json_number.h"
 
@@ -55,14 +57,31 @@ void add_window(std::string& text, const TuningResult& result) {
   add_line(text, "window", format_window(*result.window, variable_of(result).unit));
 }
 
+std::string describe_binding(const TuningResult& result) {
+  const MatchComponent& component = result.problem.components[result.binding];
+  const double error = result.answer.errors[result.binding];
+  if (component.bound.empty()) {
+    return fmt::format("{}: error {:.4g} of {:.4g}", component.name, error, component.tolerance);
+  }
+  return fmt::format("{}: {}, reached to {:.4g} of 1", component.name, component.bound, error);
+}
+
+std::string describe_reach(const StepReach& reach) {
+  if (reach.fails_at <= 0.0) {
+    return fmt::format("matches up to {:.4g} s, the largest tried", reach.step);
+  }
+  const std::string why = reach.cause == Cause::ok ? fmt::format("{:.5g} of tolerance", reach.ratio)
+                                                   : std::string(linkstudy::name_of(reach.cause));
+  return fmt::format("matches up to {:.4g} s; {:.4g} s: {} (evaluation {})", reach.step,
+                     reach.fails_at, why, reach.evaluation);
+}
+
 void add_answer(std::string& text, const TuningResult& result) {
   const Answer& answer = result.answer;
   if (answer.errors.empty()) {
     return;
   }
-  const MatchComponent& component = result.problem.components[result.binding];
-  std::string binding = fmt::format("{}: error {:.4g} of {:.4g}", component.name,
-                                    answer.errors[result.binding], component.tolerance);
+  std::string binding = describe_binding(result);
   if (result.point.empty() && result.problem.variables.size() == 1) {
     binding += fmt::format(" at {:.6g} {} (evaluation {})", result.answer_value,
                            variable_of(result).unit, answer.id);
@@ -71,6 +90,7 @@ void add_answer(std::string& text, const TuningResult& result) {
   add_line(text, "step",
            fmt::format("{:.4g} s, limit {:.4g} s, h omega_max {:.3g}", answer.step,
                        answer.step_limit, answer.h_omega));
+  if (result.step_reach) add_line(text, "", describe_reach(*result.step_reach));
 }
 
 void add_first_failure(std::string& text, const TuningResult& result) {
@@ -111,7 +131,9 @@ Json make_binding(const TuningResult& result) {
     return nullptr;
   }
   const MatchComponent& component = result.problem.components[result.binding];
+  const Json bound = component.bound.empty() ? Json(nullptr) : Json(component.bound);
   return {{"component", component.name},
+          {"bound", bound},
           {"value", result.answer_value},
           {"evaluation", result.answer.id},
           {"error", json_number(result.answer.errors[result.binding])},
@@ -191,6 +213,17 @@ Json make_window(const TuningResult& result) {
   return has_one ? describe_window(*result.window) : Json(nullptr);
 }
 
+Json make_largest_step(const TuningResult& result) {
+  if (result.point.empty()) return nullptr;
+  Json largest = {{"by_stability", json_number(result.answer.step_limit)}};
+  if (!result.step_reach) return largest;
+  const StepReach& reach = *result.step_reach;
+  largest["by_accuracy"] = reach.step;
+  largest["fails_at"] = reach.fails_at > 0.0 ? Json(reach.fails_at) : Json(nullptr);
+  largest["ratio_there"] = reach.fails_at > 0.0 ? json_number(reach.ratio) : Json(nullptr);
+  return largest;
+}
+
 // What only several variables have.
 void add_box_keys(Json& json, const TuningResult& result) {
   if (result.problem.variables.size() == 1) return;
@@ -262,7 +295,9 @@ std::string write_text(const TuningResult& result) {
   return text;
 }
 
-std::string write_json(const TuningResult& result, const std::string& digest) {
+namespace {
+
+Json make_json(const TuningResult& result) {
   Json parameters = Json::object();
   for (std::size_t i = 0; i < result.point.size(); ++i) {
     parameters[result.problem.variables[i].path] = result.point[i];
@@ -272,23 +307,116 @@ std::string write_json(const TuningResult& result, const std::string& digest) {
        i < std::min(result.answer.errors.size(), result.problem.components.size()); ++i) {
     errors[result.problem.components[i].name] = json_number(result.answer.errors[i]);
   }
-  Json json = {{"status", name_of(result.status)},
-               {"reason", result.reason},
-               {"parameters", parameters},
-               {"derived", make_derived(result)},
-               {"objective", result.point.empty() ? Json(nullptr) : Json(result.objective)},
-               {"error", errors},
-               {"binding", make_binding(result)},
-               {"first_failure", make_first_failure(result)},
-               {"window", make_window(result)},
-               {"certificate", make_claims(result)},
-               {"suggestion", make_suggestion(result)},
-               {"notes", result.notes},
-               {"evaluations", result.observations.size()},
-               {"rounds", result.rounds},
-               {"digest", digest}};
+  Json json = {
+      {"status", name_of(result.status)},
+      {"reason", result.reason},
+      {"parameters", parameters},
+      {"derived", make_derived(result)},
+      {"objective", result.point.empty() ? Json(nullptr) : json_number(shown_objective(result))},
+      {"error", errors},
+      {"binding", make_binding(result)},
+      {"first_failure", make_first_failure(result)},
+      {"window", make_window(result)},
+      {"certificate", make_claims(result)},
+      {"suggestion", make_suggestion(result)},
+      {"largest_step", make_largest_step(result)},
+      {"notes", result.notes},
+      {"evaluations", result.observations.size()},
+      {"rounds", result.rounds}};
   add_box_keys(json, result);
+  return json;
+}
+
+std::size_t count_own(const std::vector<TuningResult>& results) {
+  std::size_t count = 0;
+  for (const TuningResult& one : results) count += one.observations.size() - one.shared;
+  return count;
+}
+
+std::size_t count_rounds(const std::vector<TuningResult>& results) {
+  std::size_t count = 0;
+  for (const TuningResult& one : results) count += one.rounds;
+  return count;
+}
+
+// Of several steps: for every tolerance the answer at the largest step that has one.
+std::vector<const TuningResult*> find_cheapest(const std::vector<TuningResult>& results) {
+  std::map<double, const TuningResult*> best;
+  std::set<double> steps;
+  for (const TuningResult& one : results) {
+    steps.insert(step_of(one));
+    if (one.point.empty()) continue;
+    const TuningResult*& known = best[tolerance_of(one)];
+    if (known == nullptr || step_of(one) > step_of(*known)) known = &one;
+  }
+  std::vector<const TuningResult*> cheapest;
+  for (const auto& [tolerance, one] : best) cheapest.push_back(one);
+  return steps.size() > 1 ? cheapest : std::vector<const TuningResult*>();
+}
+
+std::string describe_best(const TuningResult& result) {
+  if (result.point.empty()) return "-";
+  std::string text = fmt::format("{:.6g}", fmt::join(result.point, ", "));
+  return result.problem.variables.size() == 1 ? text + " " + variable_of(result).unit : text;
+}
+
+std::string describe_span(const TuningResult& result) {
+  if (!result.window) return "-";
+  return fmt::format("{:.2f}", result.window->margin_decades);
+}
+
+}  // namespace
+
+std::string write_json(const TuningResult& result, const std::string& digest) {
+  Json json = make_json(result);
+  json["digest"] = digest;
   return json.dump();
+}
+
+std::string write_json(const std::vector<TuningResult>& results, const std::string& digest) {
+  if (results.size() == 1) return write_json(results.front(), digest);
+  Json answers = Json::array();
+  for (const TuningResult& one : results) {
+    Json answer = {{"tolerance", tolerance_of(one)}, {"step", json_number(step_of(one))}};
+    answer.update(make_json(one));
+    answers.push_back(std::move(answer));
+  }
+  Json cheapest = Json::array();
+  for (const TuningResult* one : find_cheapest(results)) {
+    cheapest.push_back({{"tolerance", tolerance_of(*one)}, {"step", step_of(*one)}});
+    cheapest.back()["parameters"] = make_json(*one)["parameters"];
+  }
+  const Json json = {{"status", name_of(worst_of(results))}, {"answers", std::move(answers)},
+                     {"cheapest", std::move(cheapest)},      {"evaluations", count_own(results)},
+                     {"rounds", count_rounds(results)},      {"digest", digest}};
+  return json.dump();
+}
+
+std::string write_text(const std::vector<TuningResult>& results) {
+  if (results.size() == 1) return write_text(results.front());
+  std::size_t width = 5;
+  for (const TuningResult& one : results) width = std::max(width, describe_best(one).size());
+  std::string text = fmt::format("{:>9}  {:>9}  {:>{}}  {:>7}  {:<12}  {}\n", "tolerance",
+                                 "step, s", "value", width, "decades", "verdict", "binding");
+  for (const TuningResult& one : results) {
+    text += fmt::format("{:>9.4g}  {:>9.4g}  {:>{}}  {:>7}  {:<12}  {}\n", tolerance_of(one),
+                        step_of(one), describe_best(one), width, describe_span(one),
+                        name_of(one.status), one.answer.errors.empty() ? "-" : binding_name(one));
+  }
+  text += "\n";
+  for (const TuningResult& one : results) {
+    if (one.reason.empty()) continue;
+    text += fmt::format("tolerance {:.4g}, step {:.4g} s: {}\n", tolerance_of(one), step_of(one),
+                        one.reason);
+  }
+  for (const TuningResult* one : find_cheapest(results)) {
+    text += fmt::format(
+        "tolerance {:.4g}: the largest of these steps that matches is {:.4g} s, at {}\n",
+        tolerance_of(*one), step_of(*one), describe_best(*one));
+  }
+  add_line(text, "cost",
+           fmt::format("{} evaluations in {} rounds", count_own(results), count_rounds(results)));
+  return text;
 }
 
 }  // namespace linkstudy::tuning

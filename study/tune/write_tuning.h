@@ -1,4 +1,4 @@
-// A tuning result as text for people and as one JSON object.
+// Tuning results as text for people and as one JSON object.
 #pragma once
 
 #include <string>
@@ -10,8 +10,12 @@ namespace linkstudy::tuning {
 // Aligned lines: point, window, binding component, step, NLopt, claims, cost, and one line for
 // every value of the scan and its refinement with the side it failed on.
 std::string write_text(const TuningResult& result);
+// Of several targets: a line for each, and what is left to say of those without a certificate.
+std::string write_text(const std::vector<TuningResult>& results);
 
 // One line; keys as fixed for `tune --json`, NaN and infinity as null.
 std::string write_json(const TuningResult& result, const std::string& digest);
+// Of several targets {"status": the worst, "answers": [...], "evaluations", "rounds", "digest"}.
+std::string write_json(const std::vector<TuningResult>& results, const std::string& digest);
 
 }  // namespace linkstudy::tuning
