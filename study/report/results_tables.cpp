@@ -27,14 +27,15 @@ Made part_of(AnswerKind kind, const StudyResults& results, std::string_view name
   const auto answer = std::ranges::find(results.answers, kind, &VerbAnswer::kind);
   if (answer == results.answers.end()) return std::nullopt;
   const Table* found = find_part(answer->tables, name);
-  return found == nullptr ? Made() : Made(titled(*found, results));
+  const bool is_there = found != nullptr && row_count(*found) > 0;
+  return is_there ? Made(titled(*found, results)) : Made();
 }
 
 constexpr const char* kNotFitted = "only a calibration that has its answer holds it";
 constexpr const char* kNotTuned = "only a tune that has its answer holds it";
 constexpr const char* kNotConverged = "only a converge that has all its levels holds it";
 
-constexpr std::array<ResultsTable, 17> kTables = {{
+constexpr std::array<ResultsTable, 18> kTables = {{
     {"summary", "what varies, the worst errors in percent, responses, status; by load case",
      [](const StudyResults& r) { return Made(summary_table(r)); }},
     {"evaluations", "every parameter and response of every evaluation, and why it ended",
@@ -50,6 +51,8 @@ constexpr std::array<ResultsTable, 17> kTables = {{
     {"certificate", "the claims about the answer and what they rest on",
      [](const StudyResults& r) { return part_of(AnswerKind::tuning, r, "certificate"); },
      kNotTuned},
+    {"staircase", "minimal points that match, of two or three tuned values",
+     [](const StudyResults& r) { return part_of(AnswerKind::tuning, r, "staircase"); }, kNotTuned},
     {"calibration", "fitted values, their intervals, whether the data determine them",
      [](const StudyResults& r) { return part_of(AnswerKind::calibration, r, "estimates"); },
      kNotFitted},

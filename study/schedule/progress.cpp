@@ -39,7 +39,7 @@ std::string tail(const ProgressState& state, const char* separator) {
   if (state.running > 0) text += fmt::format("{}{} running", separator, state.running);
   const double rate = find_rate(state);
   if (rate > 0.0) text += separator + rate_text(rate);
-  if (state.done >= state.total)
+  if (state.done >= state.total || state.is_budget)
     text += separator + duration_text(state.elapsed_s);
   else if (rate > 0.0)
     text += fmt::format("{}{} left", separator,
@@ -71,6 +71,10 @@ std::string duration_text(double seconds) {
 }
 
 std::string progress_bar(const ProgressState& state, std::size_t width) {
+  if (state.is_budget) {
+    return fmt::format("{} of at most {}{}", state.done, state.total, tail(state, "  "))
+        .substr(0, width);
+  }
   const double part =
       state.total == 0 ? 1.0 : static_cast<double>(state.done) / static_cast<double>(state.total);
   const auto filled =
@@ -83,6 +87,9 @@ std::string progress_bar(const ProgressState& state, std::size_t width) {
 }
 
 std::string progress_line(const ProgressState& state) {
+  if (state.is_budget) {
+    return fmt::format("{} of at most {}{}", state.done, state.total, tail(state, ", "));
+  }
   return fmt::format("{} of {} ({}%){}", state.done, state.total, percent(state),
                      tail(state, ", "));
 }

@@ -2,6 +2,9 @@
 // line at most every 10 s and a last one. Everything goes to standard error.
 //   [#########-----------]  412/1000   41%  3 failed  15 running  210/s  2m48s left
 //   412 of 1000 (41%), 3 failed, 15 running, 210/s, 2m48s left
+// A search may end long before its budget, so that nobody knows what is left: the time is that
+// spent.
+//   134 of at most 600, 5 failed, 13.4/s, 10s
 #pragma once
 
 #include <chrono>
@@ -37,6 +40,7 @@ struct ProgressState {
   std::size_t earlier = 0;  // done before this start: no part of the rate
   double elapsed_s = 0.0;   // since this start
   std::size_t running = 0;  // handed out and not answered
+  bool is_budget = false;   // the total is never exceeded, and rarely reached
 };
 
 // "0.4s", "12s", "2m48s", "3h05m", "2d04h".
@@ -58,6 +62,7 @@ class Progress {
   // Counts of this and earlier starts, or nothing new, so that the clock runs on.
   void update(std::size_t done, std::size_t failed, Time now);
   void set_running(std::size_t running) { state_.running = running; }
+  void set_budget(bool is_budget) { state_.is_budget = is_budget; }
   void tick(Time now);
   // Makes room for other lines: takes the bar away until it is drawn next.
   void clear();

@@ -74,7 +74,9 @@ StudySession::StudySession(const SessionOptions& options, Evaluator& evaluator, 
       failures_(record.failure_count()),
       progress_(*find_word<ProgressMode>(options.progress),
                 most_evaluations(evaluator.input(), total), record.evaluations().size(),
-                Clock::now()) {}
+                Clock::now()) {
+  progress_.set_budget(total == 0);
+}
 
 void StudySession::evaluate(const std::vector<Point>& points) {
   check_failures();

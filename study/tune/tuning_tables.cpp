@@ -119,6 +119,23 @@ Table make_scan_table(const TuningResult& result) {
   return table.take();
 }
 
+// Of several variables: nothing found that matches lies below one of them in every value.
+Table make_staircase_table(const TuningResult& result) {
+  using Row = Observation;
+  TableOf table("staircase", "tuning", result.staircase);
+  const std::vector<TunedVariable>& variables = result.problem.variables;
+  for (std::size_t j = 0; j < variables.size(); ++j) {
+    table.add(variables[j].path, variables[j].unit, "of a minimal match",
+              [j](const Row& r) { return r.request.x[j]; });
+  }
+  table.add("objective", "", "sum of log10 of the values",
+            [](const Row& r) { return compute_objective(r.request.x); });
+  table.add("ratio", "1", "largest error over its tolerance",
+            [&](const Row& r) { return compute_ratio(r.answer, result.problem.components); });
+  table.add("evaluation", "", "its number", [](const Row& r) { return to_count(r.answer.id); });
+  return table.take();
+}
+
 Table make_certificate_table(const TuningResult& result) {
   std::vector<Claim> claims;
   if (result.certificate) {
@@ -217,9 +234,12 @@ std::vector<Table> make_tables(const std::vector<TuningResult>& results) {
 }
 
 std::vector<Table> make_tables(const TuningResult& result) {
-  return {result.problem.variables.size() == 1 ? make_result_table(result) : make_box_table(result),
-          make_component_table(result), make_scan_table(result), make_certificate_table(result),
-          make_evaluation_table(result)};
+  const bool is_box = result.problem.variables.size() > 1;
+  std::vector<Table> tables = {is_box ? make_box_table(result) : make_result_table(result),
+                               make_component_table(result), make_scan_table(result),
+                               make_certificate_table(result), make_evaluation_table(result)};
+  if (is_box) tables.push_back(make_staircase_table(result));
+  return tables;
 }
 
 }  // namespace linkstudy::tuning

@@ -45,6 +45,12 @@ TEST(Progress_line, Counts_slow_studies_by_the_hour) {
   EXPECT_EQ(progress_line({10, 1, 0, 0, 360.0}), "1 of 10 (10%), 10/h, 54m00s left");
 }
 
+TEST(Progress, Of_a_budget_foretells_no_end) {
+  const ProgressState state{600, 134, 5, 0, 10.0, 1, true};
+  EXPECT_EQ(progress_line(state), "134 of at most 600, 5 failed, 1 running, 13.4/s, 10s");
+  EXPECT_EQ(progress_bar(state, 79), "134 of at most 600  5 failed  1 running  13.4/s  10s");
+}
+
 TEST(Progress_bar, Fills_in_proportion_and_keeps_its_columns) {
   const std::string none = progress_bar({1000, 0, 0, 0, 0.0}, 80);
   const std::string half = progress_bar({1000, 500, 0, 0, 5.0}, 80);
