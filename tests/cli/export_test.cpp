@@ -150,14 +150,30 @@ TEST_F(Export, Writes_LaTeX_that_compiles) {
   if (std::system("command -v pdflatex > /dev/null && kpsewhich siunitx.sty > /dev/null") != 0) {
     GTEST_SKIP() << "no pdflatex with siunitx";
   }
-  ASSERT_EQ(run("study study.toml -o out").code, 0);
+  write("refine.toml", R"(format = 1
+kind = "converge"
+model = "model.toml"
+[[refine]]
+parameter = "simulation.step"
+ladder = { from = 4e-3, ratio = 0.5, levels = 4 }
+[[response]]
+name = "crank_speed"
+signal = "joint.A.v"
+reduce = "last"
+)");
+  ASSERT_EQ(run("study study.toml -o studied").code, 0);
+  ASSERT_EQ(run("converge refine.toml -o refined").code, 0);
+  ASSERT_EQ(run("tune tune.toml -o tuned -s match.0.tolerance=[0.002,0.001]").code, 0);
   std::string text =
-      "\\documentclass{article}\n\\usepackage{booktabs, siunitx}\n\\begin{document}\n";
-  for (const std::string& name : names_in("out")) {
-    if (name == "traces") continue;  // longer than a page
-    text += "\\resizebox{\\textwidth}{!}{%\n";
-    text.insert(text.find("\\usepackage"), name == "summary" ? "\\usepackage{graphicx}\n" : "");
-    text += table("out --format latex --table " + name) + "}\n\n";
+      "\\documentclass{article}\n\\usepackage{booktabs, graphicx, siunitx}\n\\begin{document}\n";
+  for (const char* directory : {"studied", "refined", "tuned"}) {
+    for (const std::string& name : names_in(directory)) {
+      // Longer than a page.
+      if (name == "traces" || (name == "evaluations" && directory == std::string("tuned")))
+        continue;
+      text += "\\resizebox{!}{0.05\\textheight}{%\n";
+      text += table(directory + (" --format latex --table " + name)) + "}\n\n";
+    }
   }
   write("tables.tex", text + "\\end{document}\n");
   const std::string command = "cd '" + path("").string() +
