@@ -28,7 +28,7 @@ int finish(bool json, StudySession& session, StudyEnd end) {
     print_out(to_json(end, record));
     return end.code;
   }
-  if (end.code != exit_resumable) {
+  if (end.code != kExitResumable) {
     print_out(text_of(summary_table(record.results()), output_width()));
     print_out(fmt::format("results digest: {}\n", end.digest));
   }

@@ -48,7 +48,7 @@ std::optional<std::uint64_t> count_cases(Design design, const std::vector<std::s
   if (design == Design::list && !sizes.empty()) return sizes.front();
   std::uint64_t count = 1;
   for (const std::size_t size : sizes) {
-    if (size > 0 && count > max_points / size) return std::nullopt;
+    if (size > 0 && count > kMaxPoints / size) return std::nullopt;
     count *= size;
   }
   return count;

@@ -258,7 +258,7 @@ bool report_size(const StudyInput& input, const WrittenValues& written, Diagnost
     if (count_cases(input.design, sizes)) continue;
     diagnostics.add(place_of(input, i),
                     fmt::format("the grid of {} cases up to here has more than the {} allowed",
-                                fmt::join(sizes, " x "), max_points),
+                                fmt::join(sizes, " x "), kMaxPoints),
                     "use fewer values, or design = { type = \"list\" }");
     return true;
   }

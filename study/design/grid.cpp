@@ -12,11 +12,11 @@ std::uint64_t count_grid(const std::vector<Axis>& axes) {
   std::uint64_t count = 1;
   for (const Axis& axis : axes) {
     const std::uint64_t size = axis.values.size();
-    if (size > max_points / count)
+    if (size > kMaxPoints / count)
       throw std::invalid_argument(
           fmt::format("grid: {} x {} points (up to '{}') are more than the {} allowed; use fewer "
                       "values, or design = \"list\"",
-                      count, size, axis.parameter.path, max_points));
+                      count, size, axis.parameter.path, kMaxPoints));
     count *= size;
   }
   return count;

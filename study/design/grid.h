@@ -9,7 +9,7 @@
 
 namespace linkstudy {
 
-// Product of the axes' sizes (1 without axes); over max_points it is a std::invalid_argument.
+// Product of the axes' sizes (1 without axes); over kMaxPoints it is a std::invalid_argument.
 std::uint64_t count_grid(const std::vector<Axis>& axes);
 
 Point make_grid_point(const std::vector<Axis>& axes, std::uint64_t id);

@@ -16,9 +16,9 @@ std::uint64_t count_list(const std::vector<Axis>& axes) {
       throw std::invalid_argument(fmt::format(
           "list: '{}' has {} values but '{}' has {}; give as many, or use design = \"grid\"",
           axis.parameter.path, axis.values.size(), first.parameter.path, first.values.size()));
-  if (first.values.size() > max_points)
+  if (first.values.size() > kMaxPoints)
     throw std::invalid_argument(fmt::format("list: {} points are more than the {} allowed",
-                                            first.values.size(), max_points));
+                                            first.values.size(), kMaxPoints));
   return first.values.size();
 }
 

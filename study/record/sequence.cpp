@@ -23,9 +23,9 @@ void check_count(const char* kind, double from, double to, std::size_t count) {
   if (count == 0 || (count == 1 && from != to))
     throw std::invalid_argument(fmt::format(
         "{}: {} value(s) cannot hold both ends {} and {}; use 2 or more", kind, count, from, to));
-  if (count > max_points)
+  if (count > kMaxPoints)
     throw std::invalid_argument(
-        fmt::format("{}: {} values are more than the {} allowed", kind, count, max_points));
+        fmt::format("{}: {} values are more than the {} allowed", kind, count, kMaxPoints));
 }
 
 // The whole number of decades from one value to another, if it is one to the last bit.

@@ -13,7 +13,7 @@
 namespace linkstudy {
 
 // More values than this on one axis, or points in one design, are a slip of the pen.
-inline constexpr std::size_t max_points = 100'000'000;
+inline constexpr std::size_t kMaxPoints = 100'000'000;
 
 // Needs finite ends and count >= 2, or count == 1 with from == to.
 std::vector<double> linspace(double from, double to, std::size_t count);

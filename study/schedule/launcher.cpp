@@ -30,9 +30,9 @@ std::optional<Launcher> find_one(const Environment& environment, const char* nam
 // srun's steps count up from 0; a batch script and an interactive shell carry reserved numbers and
 // a task count too, but are one process.
 std::optional<Launcher> find_srun(const Environment& environment) {
-  constexpr long first_reserved_step = 0xfffffff0;
+  constexpr long kFirstReservedStep = 0xfffffff0;
   const auto step = read_number(environment, "SLURM_STEP_ID");
-  if (!step || *step < 0 || *step >= first_reserved_step) return std::nullopt;
+  if (!step || *step < 0 || *step >= kFirstReservedStep) return std::nullopt;
   const char* size_name =
       environment("SLURM_STEP_NUM_TASKS") ? "SLURM_STEP_NUM_TASKS" : "SLURM_NTASKS";
   auto launcher = find_one(environment, "srun", size_name, "SLURM_PROCID");

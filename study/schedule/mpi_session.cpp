@@ -98,14 +98,14 @@ bool MpiSession::all_sent() {
 }
 
 void MpiSession::broadcast(std::string& bytes) {
-  constexpr std::size_t chunk = std::size_t{1} << 30;
+  constexpr std::size_t kChunk = std::size_t{1} << 30;
   MPI_Request request = MPI_REQUEST_NULL;
   std::uint64_t length = bytes.size();
   MPI_Ibcast(&length, 1, MPI_UINT64_T, 0, MPI_COMM_WORLD, &request);
   wait_asleep(request);
   bytes.resize(length);
-  for (std::size_t begin = 0; begin < length; begin += chunk) {
-    const auto part = static_cast<int>(std::min<std::size_t>(chunk, length - begin));
+  for (std::size_t begin = 0; begin < length; begin += kChunk) {
+    const auto part = static_cast<int>(std::min<std::size_t>(kChunk, length - begin));
     MPI_Ibcast(bytes.data() + begin, part, MPI_BYTE, 0, MPI_COMM_WORLD, &request);
     wait_asleep(request);
   }

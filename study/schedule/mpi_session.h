@@ -45,7 +45,7 @@ class MpiSession final : public Transport {
   int size_ = 1;
   int nodes_ = 1;
   std::string host_;
-  int agreed_code_ = exit_resumable;
+  int agreed_code_ = kExitResumable;
   std::list<std::unique_ptr<Pending>> pending_;
 };
 

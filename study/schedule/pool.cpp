@@ -18,21 +18,21 @@ using std::chrono::microseconds;
 using std::chrono::milliseconds;
 
 // Tasks longer than this are never queued behind another: an unlucky one would wait for it.
-constexpr double queue_below_s = 10e-3;
+constexpr double kQueueBelowS = 10e-3;
 // Work queued in front of a rank covers this much, some polls of both sides.
-constexpr double queued_work_s = 1e-3;
-constexpr double most_queued = 64.0;
-constexpr milliseconds tick_interval{100};
+constexpr double kQueuedWorkS = 1e-3;
+constexpr double kMostQueued = 64.0;
+constexpr milliseconds kTickInterval{100};
 // Taken in before ticks and signals are looked at again.
-constexpr int most_messages = 256;
+constexpr int kMostMessages = 256;
 // For ranks to answer that they leave, when somebody is in a hurry.
-constexpr milliseconds hurry{2000};
+constexpr milliseconds kHurry{2000};
 // For cancelled tasks to return: a launcher kills one second after its SIGTERM.
-constexpr milliseconds cancel_patience{500};
+constexpr milliseconds kCancelPatience{500};
 // At the end of the time nobody kills yet.
-constexpr milliseconds late_patience{2000};
+constexpr milliseconds kLatePatience{2000};
 // Ranks lost with a task, until it is the task.
-constexpr int most_losses = 3;
+constexpr int kMostLosses = 3;
 
 }  // namespace
 
@@ -71,7 +71,7 @@ Pool::Pool(Transport& transport, Work work, PoolOptions options)
       left_(static_cast<std::size_t>(transport.size()), false) {}
 
 Pool::~Pool() {
-  if (transport_.rank() == 0 && !close()) transport_.abort_all(exit_resumable);
+  if (transport_.rank() == 0 && !close()) transport_.abort_all(kExitResumable);
 }
 
 int Pool::find_stop_level() const {
@@ -84,7 +84,7 @@ RunOutcome Pool::run(std::vector<std::string> tasks, const OnResult& on_result) 
   Run run(++run_number_, std::move(tasks), on_result, transport_.size());
   cancelled_ = false;
   watch_.restart(Clock::now());
-  auto next_tick = Clock::now() + tick_interval;
+  auto next_tick = Clock::now() + kTickInterval;
   collect(run);
   for (int rank = 0; rank < transport_.size(); ++rank) feed(run, rank);
   for (;;) {
@@ -103,7 +103,7 @@ bool Pool::collect(Run& run) {
     deliver(run, std::move(*result));
   }
   if (is_alone()) return active;
-  for (int i = 0; i < most_messages; ++i) {
+  for (int i = 0; i < kMostMessages; ++i) {
     auto message = transport_.receive();
     if (!message) break;
     active = true;
@@ -181,10 +181,10 @@ void Pool::feed(Run& run, int rank) {
 
 // One running task, and some queued when they are short and enough are left for every rank.
 std::size_t Pool::find_depth(const Run& run) const {
-  if (mean_seconds_ < 0.0 || mean_seconds_ > queue_below_s) return 1;
-  const double wanted = std::ceil(queued_work_s / std::max(mean_seconds_, 1e-9));
+  if (mean_seconds_ < 0.0 || mean_seconds_ > kQueueBelowS) return 1;
+  const double wanted = std::ceil(kQueuedWorkS / std::max(mean_seconds_, 1e-9));
   const std::size_t fair = (run.tasks.size() - run.next) / (2 * outstanding_.size());
-  return 1 + std::min(static_cast<std::size_t>(std::min(wanted, most_queued)), fair);
+  return 1 + std::min(static_cast<std::size_t>(std::min(wanted, kMostQueued)), fair);
 }
 
 std::optional<RunEnd> Pool::find_end(const Run& run) {
@@ -210,14 +210,14 @@ void Pool::note_stop_signal() {
 }
 
 void Pool::cancel_if_due(Run& run) {
-  const bool is_told = find_stop_level() >= stop_cancel;
+  const bool is_told = find_stop_level() >= kStopCancel;
   const bool is_late = !is_told && options_.cancel_at && Clock::now() >= *options_.cancel_at;
   if (cancel_until_ || (!is_told && !is_late)) return;
   note_stop_signal();
   run.stop(is_late ? RunEnd::deadline : RunEnd::signal);
   if (options_.cancel_work) options_.cancel_work();
   send_all(Tag::cancel, "");
-  cancel_until_ = Clock::now() + (is_late ? late_patience : cancel_patience);
+  cancel_until_ = Clock::now() + (is_late ? kLatePatience : kCancelPatience);
 }
 
 void Pool::wait(Run& run, Clock::time_point& next_tick) {
@@ -225,7 +225,7 @@ void Pool::wait(Run& run, Clock::time_point& next_tick) {
   if (Clock::now() >= next_tick) {
     if (options_.on_tick) options_.on_tick();
     watch_ranks(run);
-    next_tick = Clock::now() + tick_interval;
+    next_tick = Clock::now() + kTickInterval;
   }
   thread_.wait_for_result(find_pause());
 }
@@ -262,7 +262,7 @@ void Pool::lose(Run& run, int rank) {
   if (rank == 0) thread_.drop_queued();
   say_lost(rank, tasks.size());
   for (const std::size_t index : tasks) {
-    if (++run.losses[index] < most_losses) {
+    if (++run.losses[index] < kMostLosses) {
       run.returned.push_back(index);
       continue;
     }
@@ -299,7 +299,7 @@ bool Pool::have_all_left() {
 }
 
 // Drains what is still under way, so that nothing is left unreceived when MPI ends. Waits as long
-// as tasks run that a run left behind, but not at stop_cancel.
+// as tasks run that a run left behind, but not at kStopCancel.
 bool Pool::collect_byes() {
   std::optional<Clock::time_point> until;
   watch_.restart(Clock::now());
@@ -314,7 +314,7 @@ bool Pool::collect_byes() {
     const std::vector<int> lost = watch_.find_lost(Clock::now());
     for (const int rank : lost) say_lost(rank, 0);
     if (!lost.empty()) return false;
-    if (!until && (leaving_ || find_stop_level() >= stop_cancel)) until = Clock::now() + hurry;
+    if (!until && (leaving_ || find_stop_level() >= kStopCancel)) until = Clock::now() + kHurry;
     if (until && Clock::now() >= *until) return false;
     std::this_thread::sleep_for(microseconds(200));
   }

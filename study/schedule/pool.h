@@ -9,8 +9,8 @@
 // polling and sleeping. A rank is given tasks in advance only while they are so short (below 10 ms)
 // that the way of a message counts. Results arrive in any order, each once, on the main thread.
 //
-// Stop signals (stop_signals.h) may reach any rank; rank 0 coordinates. Level stop_finish waits for
-// what is in flight; stop_cancel and the time cancel_at have every rank call cancel_work, and wait
+// Stop signals (stop_signals.h) may reach any rank; rank 0 coordinates. Level kStopFinish waits for
+// what is in flight; kStopCancel and the time cancel_at have every rank call cancel_work, and wait
 // half a second (at cancel_at two) for the answers. Ranks that die end the job (mpi_session.h);
 // until the rest is killed, about one second later, on_terminate has its chance. Ranks that freeze
 // are lost (rank_watch.h): their tasks go to others, a task that three ranks were lost with fails,
@@ -76,7 +76,7 @@ struct RunOutcome {
   std::size_t done = 0;              // results delivered, failed ones included
   RunEnd reason = RunEnd::complete;  // of an abandoned run: deadline or signal
 
-  // The caller writes what it has and exits with exit_resumable.
+  // The caller writes what it has and exits with kExitResumable.
   bool interrupted() const { return end >= RunEnd::deadline; }
 };
 
@@ -85,7 +85,7 @@ class Pool {
   using OnResult = std::function<void(TaskResult result)>;
 
   Pool(Transport& transport, Work work, PoolOptions options = {});
-  // Rank 0: close(), and where that is in vain all ranks end with exit_resumable.
+  // Rank 0: close(), and where that is in vain all ranks end with kExitResumable.
   ~Pool();
   Pool(const Pool&) = delete;
   Pool& operator=(const Pool&) = delete;
@@ -107,7 +107,7 @@ class Pool {
   void serve();
 
   // Rank 0: tells the others that there is no more work and waits until they have left serve and
-  // tasks that a run left behind have ended; at stop_cancel no more than two seconds. False where
+  // tasks that a run left behind have ended; at kStopCancel no more than two seconds. False where
   // that does not come about or a rank was lost: then leave_now is the only way out.
   bool close();
 

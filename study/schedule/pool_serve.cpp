@@ -15,11 +15,11 @@ using std::chrono::microseconds;
 using std::chrono::milliseconds;
 
 // While it computes, the main thread only looks after signals and large messages.
-constexpr microseconds pause_computing{2000};
-constexpr microseconds pause_idle{100};
+constexpr microseconds kPauseComputing{2000};
+constexpr microseconds kPauseIdle{100};
 // Between the runs of a tuner rank 0 may think for long.
-constexpr microseconds pause_long_idle{1000};
-constexpr milliseconds long_idle_after{100};
+constexpr microseconds kPauseLongIdle{1000};
+constexpr milliseconds kLongIdleAfter{100};
 
 }  // namespace
 
@@ -34,10 +34,10 @@ void Pool::serve() {
     forward_signals();
     if (active) last_active = Clock::now();
     if (!thread_.idle())
-      thread_.wait_for_result(pause_computing);
+      thread_.wait_for_result(kPauseComputing);
     else
-      std::this_thread::sleep_for(Clock::now() - last_active > long_idle_after ? pause_long_idle
-                                                                               : pause_idle);
+      std::this_thread::sleep_for(Clock::now() - last_active > kLongIdleAfter ? kPauseLongIdle
+                                                                              : kPauseIdle);
   }
   say_bye();
 }
@@ -82,16 +82,16 @@ void Pool::send_results() {
 // A rank does not stop by itself: rank 0 hears of the signal and coordinates. But what runs here is
 // cancelled here, in case rank 0 is no longer there to say so.
 void Pool::forward_signals() {
-  const int level = std::min(stop_level(), stop_cancel);
+  const int level = std::min(stop_level(), kStopCancel);
   if (level <= forwarded_level_) return;
-  if (level == stop_cancel && options_.cancel_work) options_.cancel_work();
+  if (level == kStopCancel && options_.cancel_work) options_.cancel_work();
   forwarded_level_ = level;
   transport_.send(0, Tag::signal, std::to_string(level));
 }
 
 void Pool::say_bye() {
   transport_.send(0, Tag::bye, "");
-  while (!transport_.all_sent()) std::this_thread::sleep_for(pause_idle);
+  while (!transport_.all_sent()) std::this_thread::sleep_for(kPauseIdle);
 }
 
 void Pool::leave_worker(int code) {

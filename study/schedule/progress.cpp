@@ -11,9 +11,7 @@
 namespace linkstudy {
 namespace {
 
-constexpr std::chrono::milliseconds bar_interval{100};
-constexpr std::chrono::seconds line_interval{10};
-constexpr std::size_t bar_cells = 24;
+constexpr std::chrono::seconds kLineInterval{10};
 
 // Rounded down: 100 % means all.
 std::size_t percent(const ProgressState& state) {
@@ -78,9 +76,9 @@ std::string progress_bar(const ProgressState& state, std::size_t width) {
   const double part =
       state.total == 0 ? 1.0 : static_cast<double>(state.done) / static_cast<double>(state.total);
   const auto filled =
-      static_cast<std::size_t>(static_cast<double>(bar_cells) * std::min(part, 1.0));
+      static_cast<std::size_t>(static_cast<double>(kBarCells) * std::min(part, 1.0));
   const std::string text = fmt::format("[{}{}] {:>{}}/{} {:>3}%{}", std::string(filled, '#'),
-                                       std::string(bar_cells - filled, '-'), state.done,
+                                       std::string(kBarCells - filled, '-'), state.done,
                                        std::to_string(state.total).size(), state.total,
                                        percent(state), tail(state, "  "));
   return text.substr(0, width);
@@ -114,7 +112,7 @@ void Progress::update(std::size_t done, std::size_t failed, Time now) {
 
 void Progress::tick(Time now) {
   const bool bar = mode_ == ProgressMode::bar;
-  const bool due = bar ? now - written_ >= bar_interval : now - written_ >= line_interval;
+  const bool due = bar ? now - written_ >= kBarInterval : now - written_ >= kLineInterval;
   if (due || (bar && !ever_written_)) write(now, false);
 }
 

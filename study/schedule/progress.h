@@ -33,6 +33,10 @@ ProgressMode choose_progress_mode(ProgressMode mode);
 // Of standard error; 80 where it is no terminal.
 std::size_t find_terminal_width();
 
+// A bar is redrawn at most this often, and has this many cells.
+inline constexpr std::chrono::milliseconds kBarInterval{100};
+inline constexpr std::size_t kBarCells = 24;
+
 struct ProgressState {
   std::size_t total = 0;
   std::size_t done = 0;  // failed ones and those of earlier starts included

@@ -7,19 +7,19 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 
-constexpr double longest_silence_s = 60.0;
-constexpr double least_silence_s = 5.0;
+constexpr double kLongestSilenceS = 60.0;
+constexpr double kLeastSilenceS = 5.0;
 
-constexpr double stuck_per_silence = 10.0;
-constexpr double stuck_per_task = 20.0;
+constexpr double kStuckPerSilence = 10.0;
+constexpr double kStuckPerTask = 20.0;
 
 // What one look counts at most: longer between two looks, rank 0 stood still.
-constexpr double longest_look_s = 1.0;
-constexpr Seconds call_interval{1.0};
+constexpr double kLongestLookS = 1.0;
+constexpr Seconds kCallInterval{1.0};
 
 double find_silent_limit(double task_limit_s) {
-  if (task_limit_s <= 0.0) return longest_silence_s;
-  return std::min(longest_silence_s, least_silence_s + task_limit_s);
+  if (task_limit_s <= 0.0) return kLongestSilenceS;
+  return std::min(kLongestSilenceS, kLeastSilenceS + task_limit_s);
 }
 
 }  // namespace
@@ -41,7 +41,7 @@ void RankWatch::note_task(double seconds) {
 }
 
 double RankWatch::stuck_limit_s() const {
-  return std::max(stuck_per_silence * silent_limit_s_, stuck_per_task * longest_task_s_);
+  return std::max(kStuckPerSilence * silent_limit_s_, kStuckPerTask * longest_task_s_);
 }
 
 void RankWatch::restart(Time now) {
@@ -52,7 +52,7 @@ void RankWatch::restart(Time now) {
 }
 
 std::vector<int> RankWatch::find_lost(Time now) {
-  const double passed = std::min(Seconds(now - counted_).count(), longest_look_s);
+  const double passed = std::min(Seconds(now - counted_).count(), kLongestLookS);
   counted_ = now;
   std::vector<int> lost;
   for (std::size_t rank = 0; rank < states_.size(); ++rank) {
@@ -69,7 +69,7 @@ std::vector<int> RankWatch::find_lost(Time now) {
 }
 
 bool RankWatch::is_time_to_call(Time now) {
-  if (now - called_ < call_interval) return false;
+  if (now - called_ < kCallInterval) return false;
   called_ = now;
   return true;
 }

@@ -11,10 +11,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::milliseconds kBarInterval{100};
 constexpr std::chrono::seconds kShortestLineInterval{3};
 constexpr std::chrono::seconds kLongestLineInterval{30};
-constexpr std::size_t kBarCells = 24;
 
 double part_of(const RunProgressState& state) {
   return state.end > 0.0 ? std::clamp(state.reached / state.end, 0.0, 1.0) : 0.0;

@@ -10,16 +10,16 @@
 namespace linkstudy {
 namespace {
 
-constexpr std::int64_t one_press_ns = 100'000'000;
+constexpr std::int64_t kOnePressNs = 100'000'000;
 
 // Between SIGCONT and SIGTERM lies mpirun's odls_base_sigkill_timeout, by default one second.
-constexpr std::int64_t ending_ns = 15'000'000'000;
-constexpr std::int64_t long_ago_ns = -ending_ns;
+constexpr std::int64_t kEndingNs = 15'000'000'000;
+constexpr std::int64_t kLongAgoNs = -kEndingNs;
 
 std::atomic<int> level{0};
 std::atomic<int> last_signal{0};
-std::atomic<std::int64_t> last_time_ns{long_ago_ns};
-std::atomic<std::int64_t> continue_time_ns{long_ago_ns};
+std::atomic<std::int64_t> last_time_ns{kLongAgoNs};
+std::atomic<std::int64_t> continue_time_ns{kLongAgoNs};
 std::atomic<bool> dying{false};
 static_assert(std::atomic<int>::is_always_lock_free &&
               std::atomic<std::int64_t>::is_always_lock_free);
@@ -50,11 +50,11 @@ void count_signal(int number) {
   const std::int64_t now_ns = find_time_ns();
   const std::int64_t before = last_time_ns.exchange(now_ns);
   if (cancels(number)) {
-    raise_level(stop_cancel);
-  } else if (level.load() == 0 || now_ns - before >= one_press_ns) {
+    raise_level(kStopCancel);
+  } else if (level.load() == 0 || now_ns - before >= kOnePressNs) {
     raise_level(level.load() + 1);
   }
-  if (number == SIGTERM && now_ns - continue_time_ns.load() < ending_ns) dying.store(true);
+  if (number == SIGTERM && now_ns - continue_time_ns.load() < kEndingNs) dying.store(true);
   last_signal.store(number);
   errno = saved;
 }
@@ -101,8 +101,8 @@ void request_stop() {
 void reset_stop() {
   level.store(0);
   last_signal.store(0);
-  last_time_ns.store(long_ago_ns);
-  continue_time_ns.store(long_ago_ns);
+  last_time_ns.store(kLongAgoNs);
+  continue_time_ns.store(kLongAgoNs);
   dying.store(false);
 }
 

@@ -13,10 +13,10 @@
 namespace linkstudy {
 
 // Interrupted, and to be started again: the exit code for which a queue requeues the job.
-inline constexpr int exit_resumable = 75;
+inline constexpr int kExitResumable = 75;
 
-inline constexpr int stop_finish = 1;
-inline constexpr int stop_cancel = 2;
+inline constexpr int kStopFinish = 1;
+inline constexpr int kStopCancel = 2;
 
 // Handlers are installed from construction on. They stay when it goes, since a launcher may still
 // send SIGTERM to a rank that is on its way out; one object per process, first thing in main. A

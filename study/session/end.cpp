@@ -29,7 +29,7 @@ StudyEnd end_study(StudySession& session, const std::function<void()>& work) {
   try {
     work();
   } catch (const Interrupted&) {
-    end.code = exit_resumable;
+    end.code = kExitResumable;
     end.status = "interrupted";
   } catch (const TooManyFailures& reason) {
     end.code = kTooManyFailed;
@@ -38,7 +38,7 @@ StudyEnd end_study(StudySession& session, const std::function<void()>& work) {
   }
   session.finish_progress();
   print_err(message);
-  if (end.code == exit_resumable) {
+  if (end.code == kExitResumable) {
     fmt::print(stderr, "linkstudy: interrupted; the same command continues\n");
   }
   // Ended by failures with evaluations left is no complete study either.

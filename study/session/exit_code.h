@@ -26,6 +26,6 @@ inline constexpr std::array kExitStatuses = {
     ExitStatus{kTooManyFailed, "too many cases failed, or a single run did"},
     ExitStatus{kNotTuned, "tuning found nothing, or results were refuted"},
     ExitStatus{kNotConverged, "a refined quantity shows no order of convergence"},
-    ExitStatus{exit_resumable, "interrupted and resumable"}};
+    ExitStatus{kExitResumable, "interrupted and resumable"}};
 
 }  // namespace linkstudy

@@ -33,7 +33,7 @@ int pass_gate(Transport& transport, const std::function<int()>& step) {
   try {
     failure.code = step();
   } catch (const Interrupted&) {
-    failure.code = exit_resumable;
+    failure.code = kExitResumable;
   } catch (...) {
     failure = describe_failure(std::current_exception());
   }
@@ -94,7 +94,7 @@ class Launch {
     if (code == kDone && wants_references()) {
       code = pass_gate(transport_, [this] { return make_references(); });
       // What interrupts the references keeps the pool from handing out anything: it ends as usual.
-      has_references_ = code != exit_resumable;
+      has_references_ = code != kExitResumable;
       if (!has_references_) return hand_out(work);
       if (code != kDone) return leave_without_work(code);
       share_references(*evaluator_, transport_);
@@ -205,7 +205,7 @@ class Launch {
     options.on_terminate = [this] {
       record_->journal().sync();
       log_->warn("stop signal {}: {}", name_of_signal(last_stop_signal()),
-                 stop_level() >= stop_cancel ? "what is in flight is cancelled"
+                 stop_level() >= kStopCancel ? "what is in flight is cancelled"
                                              : "what is in flight ends, nothing more is begun");
     };
     options.on_tick = [this] {

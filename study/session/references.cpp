@@ -44,7 +44,7 @@ void run_one(Evaluator& evaluator, std::size_t i, const RunDeadline& deadline,
   std::future<void> running = std::async(std::launch::async, [&] { evaluator.run_reference(i); });
   bool cancelled = false;
   while (running.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready) {
-    if (cancelled || (stop_level() < stop_cancel && !deadline.is_over())) continue;
+    if (cancelled || (stop_level() < kStopCancel && !deadline.is_over())) continue;
     cancelled = true;
     evaluator.cancel();
     log.warn("{} cancelled by {}", title_of(evaluator, i),

@@ -12,7 +12,7 @@
 namespace linkstudy {
 
 // Rank 0. Throws Interrupted, with what has ended in the journal: after a first stop signal or at
-// the end of the wall time no further reference is begun, at stop_cancel the one in flight ends.
+// the end of the wall time no further reference is begun, at kStopCancel the one in flight ends.
 void run_references(Evaluator& evaluator, StudyRecord& record, const RunDeadline& deadline,
                     spdlog::logger& log);
 

@@ -289,7 +289,7 @@ int run_until_stopped(Transport& transport, int target, int signal, const std::s
     // Nothing was lost between hand-out and answer: ids are given in order, so they have no gap.
     expect(outcome.done == answered && answered == highest + 1, "all that was begun is answered");
     expect(*std::max_element(seen.begin(), seen.end()) == 1, "nothing is answered twice");
-    code = outcome.interrupted() ? exit_resumable : 1;
+    code = outcome.interrupted() ? kExitResumable : 1;
   });
   return transport.agree_exit_code(code);
 }
@@ -308,7 +308,7 @@ int run_until_abandoned(Transport& transport, const std::string& marker) {
   const auto size = static_cast<std::size_t>(transport.size());
   const auto outcome = pool.run(count_up(3 * size), [&](const TaskResult&) { touch(marker); });
   expect(outcome.end == RunEnd::abandoned && outcome.done == 1, "it returns with what has arrived");
-  pool.leave_now(exit_resumable);
+  pool.leave_now(kExitResumable);
 }
 
 // Tasks of minutes that end when told to: the signal must reach every rank, and nothing else is
@@ -335,7 +335,7 @@ int run_until_cancelled(Transport& transport, const std::string& marker) {
     expect(outcome.end == RunEnd::signal, "the run ends by a signal");
     expect(cancelled_tasks.size() == size, "every rank has answered");
   });
-  return transport.agree_exit_code(exit_resumable);
+  return transport.agree_exit_code(kExitResumable);
 }
 
 // Prints throughput; no test, because times are no truth.

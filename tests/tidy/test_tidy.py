@@ -111,10 +111,10 @@ class Tidy(unittest.TestCase):
         self.expect("jobs/job.sh", 2, "101")
 
     def test_a_file_of_501_lines_is_found(self):
-        self.write("tests/long.cpp", "\n" * 500)
+        self.write("tests/long_test.cpp", "\n" * 500)
         self.assertEqual([], self.problems())
-        self.write("tests/long.cpp", "\n" * 501)
-        self.expect("tests/long.cpp", 500, "501")
+        self.write("tests/long_test.cpp", "\n" * 501)
+        self.expect("tests/long_test.cpp", 500, "501")
 
     def test_a_function_of_71_lines_is_found_where_it_begins(self):
         heads = ["int f(int a)", "Model::Model(int a) : a_(a), b_{a}", "TEST(Suite, Name)",
@@ -123,19 +123,19 @@ class Tidy(unittest.TestCase):
             lines = head.count("\n") + 2  # the head, and the closing brace
             before = "namespace a {\nclass B { int g() { return 1; } };\nint x = 1;\n\n"
             body = 'g("}{", \'}\');  // }\n' * (70 - lines)
-            self.write("tests/long.cpp", f"{before}{head} {{\n{body}}}\n}}\n")
+            self.write("tests/long_test.cpp", f"{before}{head} {{\n{body}}}\n}}\n")
             self.assertEqual([], self.problems(), head)
-            self.write("tests/long.cpp", f"{before}{head} {{\n{body}\n}}\n}}\n")
-            self.expect("tests/long.cpp", 5, "71")
+            self.write("tests/long_test.cpp", f"{before}{head} {{\n{body}\n}}\n}}\n")
+            self.expect("tests/long_test.cpp", 5, "71")
 
     def test_a_member_function_is_measured_and_its_class_is_not(self):
         short = "  int g() {\n    return 1;\n  }\n" * 30
         for head in ("class A : public B<C>", "template <int (*f)(int)>\nstruct A"):
-            self.write("tests/long.cpp", f"{head} {{\n{short}}};\n")
+            self.write("tests/long_test.cpp", f"{head} {{\n{short}}};\n")
             self.assertEqual([], self.problems())
         body = "    g();\n" * 69
-        self.write("tests/long.cpp", f"class A {{\n public:\n  void f() {{\n{body}  }}\n}};\n")
-        self.expect("tests/long.cpp", 3, "71")
+        self.write("tests/long_test.cpp", f"class A {{\n public:\n  void f() {{\n{body}  }}\n}};\n")
+        self.expect("tests/long_test.cpp", 3, "71")
 
     def test_a_table_of_values_is_no_function(self):
         rows = "    {g(1), 2},\n" * 90
@@ -144,14 +144,39 @@ class Tidy(unittest.TestCase):
 
     def test_a_text_inside_a_function_counts_as_one_line(self):
         text = 'R"(' + "{ line }\n" * 90 + ')"'
-        self.write("tests/long.cpp", f"int f() {{\n  g({text});\n" + "  g();\n" * 67 + "}\n")
+        self.write("tests/long_test.cpp", f"int f() {{\n  g({text});\n" + "  g();\n" * 67 + "}\n")
         self.assertEqual([], self.problems())
-        self.write("tests/long.cpp", f"int f() {{\n  g({text});\n" + "  g();\n" * 68 + "}\n")
-        self.expect("tests/long.cpp", 1, "71")
+        self.write("tests/long_test.cpp", f"int f() {{\n  g({text});\n" + "  g();\n" * 68 + "}\n")
+        self.expect("tests/long_test.cpp", 1, "71")
 
     def test_a_python_function_of_71_lines_is_found(self):
         self.write("tests/long.py", "def f():\n" + "    g()\n" * 70)
         self.expect("tests/long.py", 1, "71")
+
+    def test_braces_about_one_short_statement_are_found(self):
+        self.write("core/laws/a.cpp", "void f() {\n  if (a) {\n    b();\n  }\n}\n")
+        self.expect("core/laws/a.cpp", 2, "no braces")
+
+    def test_braces_that_are_needed_stay(self):
+        long = "a" * 91
+        self.write("core/laws/a.cpp",
+                   "void f() {\n  if (a) {\n    b();\n  } else {\n    c();\n  }\n"
+                   f"  if (a) {{\n    {long}();\n  }}\n"
+                   "  for (int i = 0;\n       i < 3; ++i) {\n    b();\n  }\n"
+                   "  if (a) {\n    b();\n    c();\n  }\n}\n")
+        self.assertEqual([], self.problems())
+
+    def test_a_constant_without_its_k_is_found(self):
+        self.write("core/laws/a.cpp", "constexpr double most = 3.0;\n")
+        self.expect("core/laws/a.cpp", 1, "'most' is not named kName")
+        self.write("core/laws/a.cpp", "inline constexpr std::array kMost = {1, 2};\n"
+                   "template <class T>\ninline constexpr bool is_small = false;\n"
+                   "constexpr double square(double x) {\n  return x * x;\n}\n")
+        self.assertEqual([], self.problems())
+
+    def test_tests_in_a_file_of_another_name_are_found(self):
+        self.write("tests/laws/test_law.cpp", "TEST(Law, Holds) {}\n")
+        self.expect("tests/laws/test_law.cpp", 0, "*_test.cpp")
 
     def test_a_mark_left_over_is_found(self):
         for mark in ("TO" + "DO", "FIX" + "ME", "XX" + "X", "<" * 7 + " ours", ">" * 7 + " theirs"):

@@ -204,6 +204,34 @@ def check_functions(path, text):
             yield first, f"function of {length} lines, at most {FUNCTION_LINES}"
 
 
+# A block of one statement that the line of its head has room for: "if (a) {" "  b();" "}".
+SHORT_BLOCK = re.compile(r"^(?P<head> *(?:if|for|while) \([^\n]*\)) \{\n"
+                         r" *(?P<body>[^\n{}/]*;)\n *\}(?!\n? *else)$", re.M)
+CONSTANT = re.compile(r"^(?:inline |static )*constexpr [^(={]*?(?P<name>\w+)(?:<[^<>]*>)?"
+                      r"(?:\[\w*\])?(?: = |\{)", re.M)
+
+
+def fits_on_one_line(head, body):
+    return len(f"{head} {body}") <= LINE_WIDTH
+
+
+def check_style(path, text):
+    """What clang-format leaves open."""
+    if path.suffix not in (".h", ".cpp"):
+        return
+    for found in SHORT_BLOCK.finditer(text):
+        if fits_on_one_line(found["head"], found["body"]):
+            yield text.count("\n", 0, found.start()) + 1, "one short statement needs no braces"
+    for found in CONSTANT.finditer(text):
+        is_trait = found["name"].startswith(("is_", "has_"))
+        if not is_trait and not re.match(r"k[A-Z]", found["name"]):
+            yield (text.count("\n", 0, found.start()) + 1,
+                   f"constant '{found['name']}' is not named kName")
+    is_test = path.parts[0] == "tests" and re.search(r"^TEST(_F|_P)?\(", text, re.M)
+    if is_test and not path.name.endswith("_test.cpp"):
+        yield 0, "tests stand in files named *_test.cpp"
+
+
 def check_name(path):
     for part in path.parts:
         if part not in OTHER_NAMES and not part.startswith(".") and not NAMES.match(part):
@@ -240,7 +268,8 @@ def check_layer_list(tree):
             yield f"{top}/CMakeLists.txt", 0, "its layers are not those of tests/tidy/tidy.py"
 
 
-CHECKS = [check_layers, check_libraries, check_silence, check_header, check_lines, check_functions]
+CHECKS = [check_layers, check_libraries, check_silence, check_header, check_lines, check_functions,
+          check_style]
 
 
 def check_tree(tree):

@@ -83,7 +83,7 @@ TEST(Sequences, Refuse_what_they_cannot_hold) {
   EXPECT_THROW(linspace(0, 1, 1), std::invalid_argument);
   EXPECT_THROW(linspace(nan, 1, 3), std::invalid_argument);
   EXPECT_THROW(linspace(0, infinity, 3), std::invalid_argument);
-  EXPECT_THROW(linspace(0, 1, max_points + 1), std::invalid_argument);
+  EXPECT_THROW(linspace(0, 1, kMaxPoints + 1), std::invalid_argument);
   EXPECT_THROW(logspace(0, 1, 3), std::invalid_argument);
   EXPECT_THROW(logspace(-1, -10, 3), std::invalid_argument);
   EXPECT_THROW(ladder(0, 2, 3), std::invalid_argument);

@@ -260,7 +260,7 @@ TEST_F(LocalPool, Returns_at_once_on_a_second_signal_and_exits_past_the_running_
     });
     const auto outcome = pool.run(count_up(10), [](const TaskResult&) {});
     if (outcome.end != RunEnd::abandoned || outcome.done != 1) _exit(1);
-    pool.leave_now(exit_resumable);
+    pool.leave_now(kExitResumable);
   };
   const auto start = steady_clock::now();
   EXPECT_EXIT(study(), testing::ExitedWithCode(75), "");

@@ -14,7 +14,7 @@ TEST(Stop_signals, Raise_the_level_instead_of_killing) {
     const StopSignals signals;
     EXPECT_EQ(stop_level(), 0);
     raise(number);
-    EXPECT_EQ(stop_level(), stop_finish);
+    EXPECT_EQ(stop_level(), kStopFinish);
     EXPECT_EQ(last_stop_signal(), number);
   }
   reset_stop();
@@ -24,9 +24,9 @@ TEST(Stop_signals, That_a_kill_follows_cancel_at_once) {
   for (const int number : {SIGTERM, SIGHUP, SIGUSR2}) {
     const StopSignals signals;
     raise(number);
-    EXPECT_EQ(stop_level(), stop_cancel);
+    EXPECT_EQ(stop_level(), kStopCancel);
     raise(number);
-    EXPECT_EQ(stop_level(), stop_cancel);
+    EXPECT_EQ(stop_level(), kStopCancel);
     EXPECT_EQ(last_stop_signal(), number);
   }
   reset_stop();
