@@ -86,7 +86,7 @@ std::vector<VerbRow> study_verbs() {
        "FILE",
        1,
        1,
-       "tells what a file will evaluate, and measures what that costs; runs nothing to its end",
+       "tells what a file will evaluate, and what that takes; runs nothing to its end",
        {"csv", "ranks", "probe", "set,s", "seed", "batch", "json"},
        run_plan},
       {"study", "FILE", 1, 1, "runs a parameter study; starts or continues", run_options(),
