@@ -7,6 +7,7 @@
 
 #include "planted_problem.h"
 #include "study/tune/monotone_proof.h"
+#include "study/tune/scan_box.h"
 
 namespace linkstudy::tuning::testing {
 namespace {
@@ -314,6 +315,65 @@ TEST(Planted, A_pocket_below_a_failing_point_is_not_proven_away_once_it_is_seen)
     seen_pockets += has_seen ? 1 : 0;
   }
   EXPECT_GE(seen_pockets, 20);
+}
+
+// A region of two hundredths of the box that matches, between the points of the scan: with a slope
+// that leads there from afar, and in a plain that leads elsewhere.
+TEST(Planted, Scouts_find_a_small_region_that_the_scan_misses) {
+  std::mt19937_64 random(109);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  constexpr double kBox = 5.0;  // decades along an axis
+  for (const bool is_plain : {false, true}) {
+    int runs = 0;
+    int found = 0;
+    for (int i = 0; i < 40; ++i) {
+      const std::size_t n = 2 + static_cast<std::size_t>(i % 2);
+      PlantedProblem planted = plant(n, random);
+      planted.limit = std::numeric_limits<double>::infinity();
+      planted.ceiling = 1e14;
+      const double unit_ball = n == 2 ? std::numbers::pi : 4.0 / 3.0 * std::numbers::pi;
+      const auto power = static_cast<double>(n);
+      const double radius = std::pow(0.02 * std::pow(kBox, power) / unit_ball, 1.0 / power);
+      std::vector<double> at(n);
+      for (double& one : at) one = 3.0 + radius + (kBox - 2.0 * radius) * unit(random);
+      const auto distance = [=](const std::vector<double>& x) {
+        double square = 0.0;
+        for (std::size_t j = 0; j < n; ++j) square += std::pow(std::log10(x[j]) - at[j], 2.0);
+        return std::sqrt(square);
+      };
+      // The errors of plant() are divided out: all components have the ratio `shape`.
+      planted.weights = {std::vector<double>(n, 0.0)};
+      planted.weights[0][0] = 1.0;
+      planted.disturbance = [=, first = planted.optimum[0]](const std::vector<double>& x, double) {
+        const double outside = distance(x) - radius;
+        const double shape = outside <= 0.0 ? -0.3
+                             : is_plain     ? 0.5 - 0.02 * std::log10(x[0])
+                                            : 0.1 + 0.3 * outside;
+        return shape - std::log10(first / x[0]);
+      };
+      const auto scan = make_box_scan(planted.problem(), options_of(n).scan);
+      const bool is_hit =
+          std::ranges::any_of(scan, [&](const auto& x) { return planted.matches(x); });
+      if (is_hit) continue;
+      TuningOptions options = options_of(n);
+      options.max_evaluations = 1200;
+      const TuningResult result =
+          tune_planted(planted, options, fmt::format("{} run {}", is_plain ? "plain" : "slope", i));
+      ++runs;
+      if (runs == 1) {  // threads decide nothing
+        PlantedProblem again = planted;
+        again.asked = 0;
+        const TuningResult same = tune(again.problem(), options, again.evaluator());
+        ASSERT_EQ(same.observations.size(), result.observations.size());
+        for (std::size_t k = 0; k < same.observations.size(); ++k) {
+          ASSERT_EQ(same.observations[k].request.x, result.observations[k].request.x) << k;
+        }
+      }
+      found += result.point.empty() ? 0 : 1;
+    }
+    EXPECT_GE(runs, 15);
+    EXPECT_GE(found, (is_plain ? 0.9 : 0.99) * runs) << (is_plain ? "plain" : "slope");
+  }
 }
 
 // An exception of the evaluations at any time comes back as it is: no thread of NLopt hangs on it.
