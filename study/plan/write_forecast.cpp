@@ -81,7 +81,7 @@ std::string wall_text(const Forecast& forecast) {
   std::string text = fmt::format("{}{} on {}", is_design(forecast.work) ? "" : "at most ",
                                  duration_text(forecast.most.wall_s),
                                  counted(static_cast<std::uint64_t>(ranks), "rank"));
-  return text + fmt::format("; more than {} are of no use", forecast.useful_ranks);
+  return text + fmt::format(", a core each; more than {} are of no use", forecast.useful_ranks);
 }
 
 Table layouts_table(const std::vector<Layout>& layouts) {
