@@ -40,6 +40,8 @@ struct CommandLine : SessionOptions, CourseRequest {
   std::optional<std::string> signals;  // a,b
   std::optional<std::string> format;
   std::optional<std::string> h5;
+  std::optional<int> ranks;
+  double probe_s = 2.0;
 };
 
 // Throws UsageError. The verb "version" or "help" stands for --version and --help alone.

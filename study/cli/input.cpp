@@ -54,7 +54,7 @@ ModelInput read_model_input(const CommandLine& line) {
   return std::move(*model);
 }
 
-StudyInput read_study_input(const CommandLine& line, FileKind kind) {
+StudyInput read_study_input(const CommandLine& line) {
   Diagnostics diagnostics;
   std::vector<std::string> texts = line.set;
   if (line.seed) texts.push_back(fmt::format("run.seed={}", *line.seed));
@@ -62,14 +62,18 @@ StudyInput read_study_input(const CommandLine& line, FileKind kind) {
   const std::vector<Override> set = parse_sets(texts, diagnostics);
   std::optional<StudyInput> input = read_study(line.inputs.front(), set, diagnostics);
   throw_if_any(diagnostics);
-  if (input->kind != kind) {
-    const std::string_view other = name_of(input->kind);
-    diagnostics.add(make_location(input->file), fmt::format("this file has kind = \"{}\"", other),
-                    fmt::format("run 'linkstudy {} {}'", other, input->file));
-    throw InputError(diagnostics);
-  }
   apply_run_options(line, input->run);
   return std::move(*input);
+}
+
+StudyInput read_study_input(const CommandLine& line, FileKind kind) {
+  StudyInput input = read_study_input(line);
+  if (input.kind == kind) return input;
+  Diagnostics diagnostics;
+  const std::string_view other = name_of(input.kind);
+  diagnostics.add(make_location(input.file), fmt::format("this file has kind = \"{}\"", other),
+                  fmt::format("run 'linkstudy {} {}'", other, input.file));
+  throw InputError(diagnostics);
 }
 
 }  // namespace linkstudy

@@ -14,4 +14,7 @@ ModelInput read_model_input(const CommandLine& line);
 // --on-failure replace what its [run] says.
 StudyInput read_study_input(const CommandLine& line, FileKind kind);
 
+// The same of a file of any kind but model.
+StudyInput read_study_input(const CommandLine& line);
+
 }  // namespace linkstudy

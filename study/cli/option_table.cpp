@@ -81,6 +81,11 @@ Rows file_options() {
        "write the positions; - is standard output",
        fill(&Line::csv),
        {"kinematics"}},
+      {"csv",
+       "FILE",
+       "write the evaluations and their parameters; - is standard output",
+       fill(&Line::csv),
+       {"plan"}},
       {"csv", "FILE", "write time histories; - is standard output", fill(&Line::csv)},
       {"h5", "FILE", "write everything as HDF5: positions, poses, singular positions, loops",
        fill(&Line::h5)},
@@ -147,6 +152,17 @@ Rows run_rows() {
   };
 }
 
+// Of what is forecast.
+Rows plan_options() {
+  using Line = CommandLine;
+  return {
+      {"ranks", "N", "forecast for N ranks (default: tasks of the Slurm job, else processors)",
+       fill(&Line::ranks)},
+      {"probe", "S", "seconds spent on beginning runs to measure them (2); 0: only count",
+       fill(&Line::probe_s)},
+  };
+}
+
 // Of the course of driven joints.
 Rows course_options() {
   using Line = CommandLine;
@@ -166,7 +182,7 @@ Rows course_options() {
 const Rows& option_rows() {
   static const Rows rows = [] {
     Rows all = file_options();
-    for (const Rows& more : {run_rows(), course_options()}) {
+    for (const Rows& more : {run_rows(), plan_options(), course_options()}) {
       all.insert(all.end(), more.begin(), more.end());
     }
     return all;
@@ -215,6 +231,10 @@ void check_values(const CommandLine& line) {
           "--positions must be from 2 to 1000000");
   require(!line.count || *line.count > 0, "--count must be positive");
   require(!(line.count && line.all), "--all runs every evaluation; leave out --count");
+  require(!line.ranks || (*line.ranks > 0 && *line.ranks <= 1000000),
+          "--ranks must be from 1 to 1000000");
+  require(line.probe_s >= 0.0 && std::isfinite(line.probe_s),
+          "--probe must be a number of seconds, or 0");
   require(!line.batch || *line.batch > 0, "--batch must be positive");
   check_word("progress", line, line.progress);
   check_word("log-level", line, line.log_level);

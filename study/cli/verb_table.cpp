@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kMany = 1000000;
 
 // Verbs that later versions have.
-constexpr std::array kPlanned = {"plan", "report"};
+constexpr std::array kPlanned = {"report"};
 
 std::vector<std::string> run_options(const std::vector<std::string>& own = {}) {
   std::vector<std::string> names = {"output,o",     "set,s",     "seed",     "on-failure",
@@ -31,10 +31,9 @@ std::vector<std::string> verb_names() {
   return names;
 }
 
-}  // namespace
-
-const std::vector<VerbRow>& verb_rows() {
-  static const std::vector<VerbRow> rows = {
+// Of a file, and of one model.
+std::vector<VerbRow> model_verbs() {
+  return {
       {"init",
        "KIND",
        1,
@@ -77,6 +76,19 @@ const std::vector<VerbRow>& verb_rows() {
        "finds mobility, redundant joints, and the motion over a driven cycle",
        {"set,s", "drive", "from", "to", "positions", "speed", "csv", "h5", "json"},
        run_kinematics},
+  };
+}
+
+// Of what takes many runs, and of its results.
+std::vector<VerbRow> study_verbs() {
+  return {
+      {"plan",
+       "FILE",
+       1,
+       1,
+       "tells what a file will evaluate, and what that takes; runs nothing to its end",
+       {"csv", "ranks", "probe", "set,s", "seed", "batch", "json"},
+       run_plan},
       {"study", "FILE", 1, 1, "runs a parameter study; starts or continues", run_options(),
        run_study, true},
       {"tune", "FILE", 1, 1, "finds the lowest value that matches the reference",
@@ -101,6 +113,17 @@ const std::vector<VerbRow>& verb_rows() {
        {"list", "table", "columns", "rows", "traces", "format", "output,o"},
        run_export},
   };
+}
+
+}  // namespace
+
+const std::vector<VerbRow>& verb_rows() {
+  static const std::vector<VerbRow> rows = [] {
+    std::vector<VerbRow> all = model_verbs();
+    const std::vector<VerbRow> more = study_verbs();
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }();
   return rows;
 }
 

@@ -31,6 +31,7 @@ int run_describe(const CommandLine& line);
 int run_simulate(const CommandLine& line);
 int run_statics(const CommandLine& line);
 int run_kinematics(const CommandLine& line);
+int run_plan(const CommandLine& line);
 int run_study(const CommandLine& line);
 int run_tune(const CommandLine& line);
 int run_calibrate(const CommandLine& line);

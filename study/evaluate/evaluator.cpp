@@ -295,9 +295,9 @@ std::vector<CaseTraces> Evaluator::reference_traces() const {
   return traces;
 }
 
-std::vector<Override> Evaluator::overrides_of(const LoadCaseInput& load_case,
-                                              const std::vector<Value>& point) const {
-  return case_overrides(input_, load_case, to_overrides(parameters_, point));
+ModelInput Evaluator::model_at(std::size_t load_case, const std::vector<Value>& point) const {
+  return require_model(*input_.model, case_overrides(input_, load_cases_.at(load_case),
+                                                     to_overrides(parameters_, point)));
 }
 
 struct Evaluator::Attempt {
@@ -370,8 +370,7 @@ bool Evaluator::end_if_late(Attempt& attempt) const {
 std::unique_ptr<PreparedCase> Evaluator::prepare_case(std::size_t load_case, std::size_t point,
                                                       Attempt& attempt, const RunMetrics* like) {
   const ReferenceRecord* record = reference(load_case);
-  const ModelInput input = require_model(
-      *input_.model, overrides_of(load_cases_[load_case], attempt.result.point.values));
+  const ModelInput input = model_at(load_case, attempt.result.point.values);
   Preparation preparation = prepare(input.linkage, input.options);
   if (preparation.cause != Cause::ok) {
     fail(attempt.result, preparation.cause, preparation.message);

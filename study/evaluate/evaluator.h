@@ -47,6 +47,8 @@ class Evaluator {
 
   std::size_t load_case_count() const { return load_cases_.size(); }
   const std::string& load_case_name(std::size_t i) const { return load_cases_.at(i).name; }
+  // What a point is in a load case. Throws InvalidPoint.
+  ModelInput model_at(std::size_t load_case, const std::vector<Value>& point) const;
   // Whether a load case is compared with a run.
   bool has_reference(std::size_t i) const;
   // Runs the reference of a load case where it is missing. Throws ReferenceFailure; of
@@ -84,8 +86,6 @@ class Evaluator {
 
   MeasuredRun measured_run(std::size_t load_case, const Point& point);
 
-  std::vector<Override> overrides_of(const LoadCaseInput& load_case,
-                                     const std::vector<Value>& point) const;
   const ReferenceRecord* reference(std::size_t load_case);
   struct Attempt;
   void attempt(std::span<Attempt> attempts);

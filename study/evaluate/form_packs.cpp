@@ -6,16 +6,6 @@
 namespace linkstudy {
 namespace {
 
-// Values that decide the structure or the steps.
-std::vector<Value> deciding_values(const Point& point, const std::vector<Parameter>& parameters) {
-  std::vector<Value> values;
-  for (std::size_t i = 0; i < parameters.size() && i < point.values.size(); ++i) {
-    const bool is_word = std::holds_alternative<std::string>(point.values[i]);
-    if (is_word || parameters[i].path.starts_with("simulation.")) values.push_back(point.values[i]);
-  }
-  return values;
-}
-
 // In the order of their first points.
 std::vector<std::vector<Point>> sort_by_kind(const std::vector<Point>& points,
                                              const std::vector<Parameter>& parameters) {
@@ -30,6 +20,15 @@ std::vector<std::vector<Point>> sort_by_kind(const std::vector<Point>& points,
 }
 
 }  // namespace
+
+std::vector<Value> deciding_values(const Point& point, const std::vector<Parameter>& parameters) {
+  std::vector<Value> values;
+  for (std::size_t i = 0; i < parameters.size() && i < point.values.size(); ++i) {
+    const bool is_word = std::holds_alternative<std::string>(point.values[i]);
+    if (is_word || parameters[i].path.starts_with("simulation.")) values.push_back(point.values[i]);
+  }
+  return values;
+}
 
 std::vector<std::vector<Point>> form_packs(const std::vector<Point>& points,
                                            const std::vector<Parameter>& parameters, int lanes,

@@ -10,6 +10,9 @@
 
 namespace linkstudy {
 
+// Values of a point that decide the structure or the steps: its words, and `simulation.*`.
+std::vector<Value> deciding_values(const Point& point, const std::vector<Parameter>& parameters);
+
 // Points in the order given, apart from this: only those that agree in all words and in
 // `simulation.*` values come together, for others rarely fit into one step loop.
 std::vector<std::vector<Point>> form_packs(const std::vector<Point>& points,

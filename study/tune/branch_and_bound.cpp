@@ -41,12 +41,14 @@ class BoundSearch {
     learn();
     open_ = {root_};
     BoundReport report;
-    while (!decide(report)) {
-      const std::vector<Position> corners = choose_corners();
-      if (corners.empty()) continue;
-      ask(corners);
-      learn();
-    }
+    do {
+      while (!decide(report)) {
+        const std::vector<Position> corners = choose_corners();
+        if (corners.empty()) continue;
+        ask(corners);
+        learn();
+      }
+    } while (report.end == BoundEnd::closed && resolve_doubts());
     report.evaluations = log_.observations().size() - first;
     return report;
   }
@@ -109,6 +111,23 @@ class BoundSearch {
   bool may_prove_yet(const KnownPoint& point) const {
     const bool fails = std::isfinite(point.ratio) && point.ratio > 1.0 + mu_;
     return fails && !point.was_halved;
+  }
+
+  // Half the step of points that may contradict monotony. Returns false when nothing was asked.
+  bool resolve_doubts() {
+    const std::vector<KnownPoint> points =
+        find_known_points(log_.problem().components, log_.observations());
+    const std::vector<std::size_t> doubts = find_doubts(points, mu_);
+    std::vector<Request> requests;
+    for (const Observation& seen : log_.observations()) {
+      const auto is_it = [&](std::size_t i) { return points[i].id == seen.answer.id; };
+      if (std::ranges::any_of(doubts, is_it)) requests.push_back({seen.request.x, 0.5, "audit"});
+    }
+    const std::size_t before = log_.remaining();
+    log_.evaluate(requests);
+    if (log_.remaining() == before) return false;
+    learn();
+    return true;
   }
 
   bool has_lower_match() const {

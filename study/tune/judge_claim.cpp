@@ -240,7 +240,11 @@ Finding judge_proof(const CertificateTerms& terms, const Evidence& evidence) {
       proof.gap(), 100.0 * proof.mu, std::log10(1.0 + proof.mu), describe(proof.audit));
   const bool is_closed =
       proof.gap() <= terms.gap + terms.slack && proof.audit.worst <= kMostContradiction;
-  return {is_closed ? Verdict::certified : Verdict::inconclusive, seen};
+  if (!is_closed) return {Verdict::inconclusive, seen};
+  if (proof.doubts == 0) return {Verdict::certified, seen};
+  return {Verdict::inconclusive,
+          fmt::format("{}; {} points that may contradict it were not tried at half the step", seen,
+                      proof.doubts)};
 }
 
 }  // namespace

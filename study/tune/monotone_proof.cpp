@@ -166,6 +166,21 @@ MonotoneAudit audit_monotony(const std::vector<KnownPoint>& points, bool counts_
   return audit;
 }
 
+std::vector<std::size_t> find_doubts(const std::vector<KnownPoint>& points, double mu) {
+  std::vector<std::size_t> doubts;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const KnownPoint& b = points[i];
+    if (!std::isfinite(b.ratio) || b.was_halved) continue;
+    const bool is_doubt = std::ranges::any_of(points, [&](const KnownPoint& a) {
+      const double allowed = (1.0 + 0.5 * mu) * std::max(1.0, a.ratio);
+      return a.ratio <= kNearTolerance && b.ratio > allowed && b.net() <= allowed &&
+             reaches_above(b.t, a.t);
+    });
+    if (is_doubt) doubts.push_back(i);
+  }
+  return doubts;
+}
+
 double choose_mu(double asked, const MonotoneAudit& audit) {
   return std::max(asked, 2.0 * audit.worst);
 }
@@ -202,6 +217,7 @@ MonotoneProof prove(const std::vector<TunedVariable>& variables,
   MonotoneProof proof;
   proof.audit = audit_monotony(points, true);
   proof.mu = choose_mu(asked_mu, proof.audit);
+  proof.doubts = find_doubts(points, proof.mu).size();
   proof.objective = sum_of(position_of(point));
   std::vector<Position> proofs;
   for (const KnownPoint& known : points) {

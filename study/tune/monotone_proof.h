@@ -16,7 +16,9 @@
 // The audit looks at all pairs a <= b of evaluated points, b with a bound. A pair contradicts
 // monotony where r(a) <= 1.5 and r(b) less its bound exceeds max(1, r(a)), by the ratio of the two
 // less 1. mu is the larger of what was asked for and twice the worst contradiction: it is never
-// made smaller by what is seen.
+// made smaller by what is seen. A point b that would contradict by more than mu / 2 but for its
+// bound is a doubt, unless half its step was tried: that tells whether it fails by its step. With
+// doubts no gap is closed.
 #pragma once
 
 #include "study/tune/evaluation_log.h"
@@ -46,6 +48,7 @@ struct MonotoneAudit {
 };
 
 struct MonotoneProof {
+  std::size_t doubts = 0;
   double mu = 0.0;
   double objective = 0.0;  // f(k*)
   double covered = 0.0;    // everything with a smaller f is proven to fail
@@ -69,6 +72,9 @@ std::vector<KnownPoint> find_known_points(const std::vector<MatchComponent>& com
 // Without `counts_pairs` only the contradictions are counted.
 MonotoneAudit audit_monotony(const std::vector<KnownPoint>& points, bool counts_pairs);
 double choose_mu(double asked, const MonotoneAudit& audit);
+
+// Positions in the list of points whose half step was not tried and would tell of a contradiction.
+std::vector<std::size_t> find_doubts(const std::vector<KnownPoint>& points, double mu);
 
 // The lowest f of a point of the range that is below none of the proofs, at most `limit`.
 double find_lowest_uncovered(const Position& low, const Position& high,

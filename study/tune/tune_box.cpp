@@ -8,6 +8,7 @@
 #include "study/tune/branch_and_bound.h"
 #include "study/tune/polish_point.h"
 #include "study/tune/scan_box.h"
+#include "study/tune/scout_box.h"
 #include "study/tune/start_nlopt.h"
 #include "study/tune/step_reach.h"
 
@@ -38,6 +39,7 @@ class BoxTuning {
     log_.evaluate(requests);
     const std::size_t starts = std::min(kStarts, log_.options().batch);
     result_.nlopt = search_from(log_, choose_starts(log_, starts), kWideStep, reserve_);
+    if (!settle_lowest(log_, reserve_)) look_elsewhere();
     if (settle_lowest(log_, reserve_)) {
       search();
       describe_point();
@@ -49,6 +51,14 @@ class BoxTuning {
   }
 
  private:
+  // Where neither the scan nor what NLopt finds around its points matches.
+  void look_elsewhere() {
+    if (scout_box(log_, reserve_) == 0) return;
+    const std::size_t starts = std::min(kStarts, log_.options().batch);
+    const NloptReport more = search_from(log_, choose_starts(log_, starts), kWideStep, reserve_);
+    result_.nlopt.evaluations += more.evaluations;
+  }
+
   void search() {
     for (int pass = 0; pass < kMostPolishes; ++pass) {
       point_ = polish(settle_lowest(log_, reserve_).value());

@@ -174,6 +174,20 @@ TEST(Proof, A_contradiction_doubles_into_mu_and_never_makes_it_smaller) {
   EXPECT_EQ(choose_mu(0.2, audit), 0.2);
 }
 
+// b rises above a by 10 %; only its bound keeps that from being a contradiction.
+TEST(Proof, A_rise_that_the_step_may_explain_is_a_doubt_until_half_the_step_was_tried) {
+  const double none = std::numeric_limits<double>::infinity();
+  const KnownPoint a{{5.0, 5.0}, 0.98, 0.0, 0, false};
+  const auto doubts = [&](const KnownPoint& b) { return find_doubts({a, b}, 0.02); };
+  EXPECT_EQ(doubts({{5.1, 5.0}, 1.1, none, 1, false}), std::vector<std::size_t>{1});
+  EXPECT_EQ(doubts({{5.1, 5.0}, 1.1, 0.5, 1, false}), std::vector<std::size_t>{1});
+  EXPECT_TRUE(doubts({{5.1, 5.0}, 1.1, none, 1, true}).empty());
+  EXPECT_TRUE(doubts({{5.1, 5.0}, 1.1, 0.0, 1, false}).empty());     // a contradiction: counted
+  EXPECT_TRUE(doubts({{5.1, 5.0}, 1.009, none, 1, false}).empty());  // within mu / 2
+  EXPECT_TRUE(doubts({{5.1, 4.9}, 1.1, none, 1, false}).empty());    // not above a
+  EXPECT_TRUE(doubts({{5.1, 5.0}, none, none, 1, false}).empty());   // ended by a cause
+}
+
 // Second route: the lowest uncovered point of a fine grid.
 TEST(Proof, The_lowest_uncovered_corner_is_that_of_a_grid) {
   std::mt19937_64 generator(2);

@@ -1,0 +1,127 @@
+#include "study/plan/costs.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace linkstudy::plan {
+namespace {
+
+constexpr double kReferencePart = 0.3;        // of the time for measuring
+constexpr std::size_t kMostKindsProbed = 32;  // those with the most runs
+constexpr double kShortestProbe = 0.02;       // s
+constexpr double kAloneOverBeside = 0.5;  // a full pack of lanes takes about as long as two alone
+
+// Kinds with the most to do first.
+std::vector<std::size_t> by_weight(const std::vector<RunKind>& kinds) {
+  std::vector<std::size_t> order(kinds.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  const auto weight = [&](std::size_t i) {
+    return static_cast<double>(kinds[i].points.size()) * static_cast<double>(kinds[i].grid.count);
+  };
+  std::ranges::stable_sort(order, [&](auto a, auto b) { return weight(a) > weight(b); });
+  order.resize(std::min(order.size(), kMostKindsProbed));
+  return order;
+}
+
+}  // namespace
+
+Costs::Costs(const Evaluator& study, const RunKinds& kinds, int lanes, double seconds)
+    : kinds_(kinds), lanes_(lanes), costs_(kinds_.all().size()) {
+  measured_.kinds = costs_.size();
+  if (costs_.empty()) return;
+  const std::vector<Value>& first = kinds_.all().front().points.front()->values;
+  for (std::size_t i = 0; i < study.load_case_count(); ++i) {
+    probes_.push_back(std::make_unique<Probe>(study, i, first));
+  }
+  measure_references(study, kReferencePart * seconds);
+  measure_kinds(seconds - std::min(measured_.spent_s, 0.5 * seconds));
+  fill_gaps();
+}
+
+void Costs::measure_references(const Evaluator& study, double seconds) {
+  for (std::size_t i = 0; i < study.load_case_count(); ++i) {
+    if (!study.has_reference(i)) continue;
+    const double part = seconds / static_cast<double>(study.load_case_count());
+    const RunPace pace = probes_[i]->measure_reference(std::max(part, kShortestProbe));
+    references_s_ += pace.run_s;
+    measured_.spent_s += pace.spent_s;
+  }
+}
+
+void Costs::take(std::size_t kind, std::span<const Point> points, double seconds,
+                 std::optional<RunPace>& pace) {
+  pace = probes_[kinds_.all()[kind].load_case]->measure(points, seconds);
+  measured_.steps += pace->steps;
+  measured_.spent_s += pace->spent_s;
+}
+
+void Costs::measure_kinds(double seconds) {
+  const std::vector<std::size_t> order = by_weight(kinds_.all());
+  measured_.probed = order.size();
+  double parts = 0.0;
+  for (const std::size_t i : order) {
+    const RunKind& kind = kinds_.all()[i];
+    parts += kind.has_constant_steps() && kind.points.size() > 1 && lanes_ > 1 ? 2.0 : 1.0;
+  }
+  const double part = std::max(seconds / parts, kShortestProbe);
+  for (const std::size_t i : order) {
+    const RunKind& kind = kinds_.all()[i];
+    std::vector<Point> points;
+    const std::size_t width = kind.has_constant_steps()
+                                  ? std::min(kind.points.size(), static_cast<std::size_t>(lanes_))
+                                  : 1;
+    for (std::size_t k = 0; k < width; ++k) points.push_back(*kind.points[k]);
+    take(i, {points.data(), 1}, part, costs_[i].alone);
+    if (width > 1) take(i, points, part, costs_[i].beside);
+  }
+}
+
+// Kinds that were not probed are taken for the nearest that was, by their steps.
+void Costs::fill_gaps() {
+  for (std::size_t i = 0; i < costs_.size(); ++i) {
+    if (costs_[i].alone) continue;
+    std::size_t nearest = costs_.size();
+    for (std::size_t k = 0; k < costs_.size(); ++k) {
+      if (!costs_[k].alone || costs_[k].alone->spent_s == 0.0) continue;
+      const bool is_nearer = nearest == costs_.size() ||
+                             (kinds_.all()[k].load_case == kinds_.all()[i].load_case &&
+                              kinds_.all()[nearest].load_case != kinds_.all()[i].load_case);
+      if (is_nearer) nearest = k;
+    }
+    if (nearest == costs_.size()) continue;
+    costs_[i] = costs_[nearest];
+    const double ratio = static_cast<double>(kinds_.all()[i].grid.count) /
+                         static_cast<double>(kinds_.all()[nearest].grid.count);
+    for (std::optional<RunPace>* pace : {&costs_[i].alone, &costs_[i].beside}) {
+      if (!*pace) continue;
+      (*pace)->run_s *= ratio;
+      (*pace)->spent_s = 0.0;
+    }
+  }
+}
+
+double Costs::run_s(std::size_t kind, std::size_t count) const {
+  const KindCost& cost = costs_[kind];
+  if (!cost.alone) return 0.0;
+  const double alone = cost.alone->run_s;
+  if (count == 1 || !kinds_.all()[kind].has_constant_steps() || lanes_ == 1) {
+    return alone * static_cast<double>(count);
+  }
+  const double beside = cost.beside ? cost.beside->run_s : alone / kAloneOverBeside;
+  return beside * std::ceil(static_cast<double>(count) / static_cast<double>(lanes_));
+}
+
+double Costs::pack_s(std::span<const Point> pack) const {
+  std::map<std::size_t, std::size_t> counts;
+  double seconds = 0.0;
+  for (const Point& point : pack) {
+    for (const std::size_t kind : kinds_.of(point)) {
+      ++counts[kind];
+      if (costs_[kind].alone) seconds += costs_[kind].alone->setup_s;
+    }
+  }
+  for (const auto& [kind, count] : counts) seconds += run_s(kind, count);
+  return seconds;
+}
+
+}  // namespace linkstudy::plan

@@ -1,0 +1,26 @@
+#include "study/plan/pull_schedule.h"
+
+#include <algorithm>
+#include <functional>
+#include <queue>
+#include <vector>
+
+namespace linkstudy::plan {
+
+PullEnd pull(std::span<const double> tasks, int ranks) {
+  std::priority_queue<double, std::vector<double>, std::greater<>> idle_at;
+  for (int i = 0; i < ranks; ++i) idle_at.push(0.0);
+  PullEnd end;
+  double work = 0.0;
+  for (const double task : tasks) {
+    const double done = idle_at.top() + task;
+    idle_at.pop();
+    idle_at.push(done);
+    end.wall_s = std::max(end.wall_s, done);
+    work += task;
+  }
+  if (end.wall_s > 0.0) end.busy = work / (end.wall_s * static_cast<double>(ranks));
+  return end;
+}
+
+}  // namespace linkstudy::plan
