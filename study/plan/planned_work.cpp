@@ -1,6 +1,7 @@
 #include "study/plan/planned_work.h"
 
 #include <algorithm>
+#include <set>
 
 #include "study/calibrate/fit_setup.h"
 #include "study/calibrate/starts.h"
@@ -33,14 +34,18 @@ PlannedWork plan_tune(const Evaluator& evaluator) {
   const double step = base_step_of(input);
   PlannedWork work;
   work.certain_are = "the scan";
-  work.most = input.search.max_evaluations;
+  work.most = most_tuning_evaluations(input);
   work.batch = input.search.batch;
-  for (const auto& values : scan_of(make_tuning_problem(evaluator), input.search.scan)) {
-    if (work.points.size() == work.most) break;
-    Point& point = work.points.emplace_back();
-    point.id = work.points.size() - 1;
-    point.values.assign(values.begin(), values.end());
-    point.values.emplace_back(step);
+  std::set<double> factors;  // every step has a scan of its own, tolerances share it
+  for (const tuning::TuningTarget& target : make_tuning_targets(evaluator)) {
+    if (!factors.insert(target.step_factor).second) continue;
+    for (const auto& values : scan_of(target.problem, input.search.scan)) {
+      if (work.points.size() == work.most) break;
+      Point& point = work.points.emplace_back();
+      point.id = work.points.size() - 1;
+      point.values.assign(values.begin(), values.end());
+      point.values.emplace_back(step * target.step_factor);
+    }
   }
   return work;
 }
