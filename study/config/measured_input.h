@@ -40,6 +40,12 @@ struct MeasuredInput {
   Location offset_at;
 };
 
+// A file of measured data, by its name in the study.
+struct DataText {
+  std::string name;
+  std::string text;
+};
+
 // [[parameter]] of a calibration.
 enum class ParameterRole { free, fixed, tied };
 

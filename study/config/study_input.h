@@ -167,7 +167,8 @@ struct StudyInput {
 struct ResolvedTexts {
   std::string study;
   std::string model;
-  std::string reference;  // its model; empty where that is the same
+  std::string reference;       // its model; empty where that is the same
+  std::vector<DataText> data;  // each once
 };
 // The input of results again, without the files it was read from; `file` is the name in messages.
 std::optional<StudyInput> read_study(const ResolvedTexts& texts, const std::string& file,
