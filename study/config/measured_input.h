@@ -1,5 +1,5 @@
-// What simulated histories are compared with in a calibration: measured data of a file, or a run of
-// the model itself.
+// What simulated histories are compared with: measured data of a file, or, in a calibration, a run
+// of the model itself.
 #pragma once
 
 #include "study/config/measured_data.h"

@@ -21,8 +21,13 @@ bool is_readable(const MeasuredInput& measured) {
 template <class Measured, class Study>
 std::vector<Measured*> list_measured(Study& input) {
   std::vector<Measured*> all;
+  const auto add_reference = [&](auto& reference) {
+    if (reference && reference->measured) all.push_back(&*reference->measured);
+  };
+  add_reference(input.reference);
   for (auto& one : input.load_case) {
     if (one.measured && !one.reference) all.push_back(&*one.measured);
+    add_reference(one.reference);
   }
   return all;
 }

@@ -74,9 +74,9 @@ class StudyReader {
   void load_models() {
     input_.model = load_model(study_);
     for (LoadCaseInput& one : input_.load_case) {
-      if (one.reference) one.reference->model = input_.model;
+      if (one.reference && one.reference->is_run()) one.reference->model = input_.model;
     }
-    if (!input_.reference) return;
+    if (!input_.reference || !input_.reference->is_run()) return;
     const Tree& tree = *study_.find("reference");
     const bool has_own = tree.find("model") != nullptr;
     input_.reference->model = has_own ? load_model(tree) : input_.model;

@@ -50,6 +50,11 @@ std::string commented(const std::string& text) {
   return result;
 }
 
+// A run of another model.
+bool has_own_reference(const StudyInput& input) {
+  return input.reference && input.reference->is_run() && input.reference->model != input.model;
+}
+
 // The study with all defaults; what --set changed and the models follow as comments, so that the
 // text is a study file again.
 std::string resolved_text(const SessionOptions& options, const StudyInput& input) {
@@ -57,7 +62,7 @@ std::string resolved_text(const SessionOptions& options, const StudyInput& input
   for (const std::string& set : options.set) text += fmt::format("\n# --set {}\n", set);
   text += fmt::format("\n# Model of the cases, {}, with --set in it:\n", input.model->file());
   text += commented(write_toml(input.model->tree()));
-  if (input.reference && input.reference->model != input.model) {
+  if (has_own_reference(input)) {
     text += fmt::format("\n# Model of the reference, {}:\n", input.reference->model->file());
     text += commented(write_toml(input.reference->model->tree()));
   }
@@ -94,7 +99,9 @@ StudyIdentity make_identity(const SessionOptions& options, const Evaluator& eval
                           evaluator.parameters(), evaluator.responses()};
   std::vector<std::string> texts = {write_toml(without_run_settings(input.resolved)),
                                     write_toml(input.model->tree())};
-  if (input.reference) texts.push_back(write_toml(input.reference->model->tree()));
+  if (input.reference && input.reference->is_run()) {
+    texts.push_back(write_toml(input.reference->model->tree()));
+  }
   for (const MeasuredInput* one : measured_inputs(input)) {
     if (one->data) texts.push_back(one->data->text);
   }
@@ -106,7 +113,7 @@ StudyIdentity make_identity(const SessionOptions& options, const Evaluator& eval
                     {"machine", machine_text(transport)},
                     {kResolvedStudy, write_toml(input.resolved)},
                     {kResolvedModel, write_toml(input.model->tree())}};
-  if (input.reference && input.reference->model != input.model) {
+  if (has_own_reference(input)) {
     identity.texts.push_back({kResolvedReference, write_toml(input.reference->model->tree())});
   }
   add_data(input, identity.texts);

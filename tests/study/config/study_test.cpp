@@ -127,7 +127,7 @@ TEST(Study, A_tune_file_is_read) {
   EXPECT_EQ(input.match[0].reference_signal, "closure.S.force");
   EXPECT_EQ(input.match[0].norm, ErrorNorm::max);
   EXPECT_EQ(input.match[0].scale, ErrorScale::component);
-  EXPECT_EQ(input.match[0].tolerance, 0.02);
+  EXPECT_EQ(input.match[0].tolerance, std::vector<double>{0.02});
   EXPECT_EQ(input.match[0].floor, 0.05);
   EXPECT_EQ(input.match[0].window->first, 0.5);
   EXPECT_EQ(input.match[0].window->last, 15.0);
@@ -136,7 +136,7 @@ TEST(Study, A_tune_file_is_read) {
   EXPECT_EQ(input.search.scan, 16);
   EXPECT_EQ(input.search.batch, 8);
   EXPECT_EQ(input.search.resolution, 0.001);
-  EXPECT_EQ(input.search.max_evaluations, 200);
+  EXPECT_EQ(input.search.max_evaluations, std::nullopt);
   EXPECT_EQ(input.search.delta, 0.02);
   EXPECT_FALSE(input.run.timeout);
   EXPECT_FALSE(input.run.max_failures);
@@ -177,7 +177,7 @@ TEST(Study, What_is_compared_kept_and_how_it_runs_is_read) {
   EXPECT_EQ(input.match[0].reference_sign, -1.0);
   EXPECT_EQ(input.match[0].norm, ErrorNorm::rms);
   EXPECT_EQ(input.match[0].scale, ErrorScale::vector);
-  EXPECT_EQ(input.match[0].tolerance, 0.02);
+  EXPECT_EQ(input.match[0].tolerance, std::vector<double>{0.02});
   EXPECT_FALSE(input.match[0].window);
   EXPECT_EQ(input.response[0].name, "largest_drift");
   EXPECT_EQ(input.response[0].reduce, Reduction::max_abs);
@@ -206,7 +206,7 @@ TEST(Study, Set_options_go_to_the_study_or_to_its_models) {
       good(kTune, {"search.scan=32", "link.crank.mass=2", "match.0.tolerance=0.5"});
   Diagnostics diagnostics;
   EXPECT_EQ(input.search.scan, 32);
-  EXPECT_EQ(input.match[0].tolerance, 0.5);
+  EXPECT_EQ(input.match[0].tolerance, std::vector<double>{0.5});
   EXPECT_EQ(input.model->with(input.base_set, diagnostics)->linkage.links[0].mass, 2.0);
   EXPECT_EQ(input.reference->model->with({}, diagnostics)->linkage.links[0].mass, 2.0);
 }
