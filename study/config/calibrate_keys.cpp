@@ -1,9 +1,7 @@
 #include "study/config/calibrate_keys.h"
 
-#include <fmt/format.h>
-
 #include "study/config/common_fields.h"
-#include "study/config/unit.h"
+#include "study/config/measured_keys.h"
 
 namespace linkstudy {
 namespace {
@@ -35,40 +33,10 @@ Fields<StudyInput> parameter_fields() {
   return parameter;
 }
 
-void read_columns(MeasuredInput& to, Tree& value, const Reading& reading) {
-  for (const Override& one : flatten_overrides(value)) {
-    if (one.value.is(Tree::Kind::text)) {
-      to.columns.push_back({one.path, one.origin, one.value.text, one.value.at});
-    } else {
-      reading.diagnostics.add(one.value.at,
-                              fmt::format("columns.{} must be the head of a column, got {}",
-                                          one.path, shown(one.value)),
-                              "write the head as it stands in the file, in quotes");
-    }
-  }
-}
-
 void read_sigma(MeasuredInput& to, Tree& value, const Reading&) {
   for (const Override& one : flatten_overrides(value)) {
     to.sigma.push_back({one.path, one.value, one.origin});
   }
-}
-
-void read_offset(MeasuredInput& to, Tree& value, const Reading& reading) {
-  to.offset_at = value.at;
-  to.fits_offset = value.is(Tree::Kind::text) && value.text == "fit";
-  if (to.fits_offset) return;
-  to.time_offset = value.as_number();
-  if (value.is_numeric()) return;
-  const auto quantity = value.is(Tree::Kind::text) ? split_quantity(value.text) : std::nullopt;
-  const auto unit = quantity ? parse_unit(quantity->unit) : std::nullopt;
-  const auto seconds = unit ? convert_unit(quantity->value, *unit, *parse_unit("s")) : std::nullopt;
-  if (seconds) {
-    to.time_offset = *seconds;
-    return;
-  }
-  reading.report(value, fmt::format("time_offset must be a time, got {}", shown(value)),
-                 "a number in s, a text such as \"3 ms\", or \"fit\"");
 }
 
 void add_signals(Fields<MeasuredInput>& measured) {
@@ -89,11 +57,10 @@ void add_weights(Fields<MeasuredInput>& measured) {
                {.meaning = "of the residuals of this experiment, in SI units; default: 1",
                 .range = kPositive,
                 .group = "sigma"});
-  measured.read("time_offset",
-                {.type = scalar,
-                 .meaning = "added to the instants of the data, s, or \"fit\": within a tenth of "
-                            "their duration, as far as the run reaches; default: 0"},
-                read_offset);
+  add_time_offset(measured,
+                  {.meaning = "added to the instants of the data, s, or \"fit\": within a tenth of "
+                              "their duration, as far as the run reaches; default: 0"},
+                  true);
 }
 
 Fields<LoadCaseInput> experiment_fields() {
@@ -101,13 +68,10 @@ Fields<LoadCaseInput> experiment_fields() {
   experiment.add("name", &LoadCaseInput::name,
                  {.type = name, .meaning = "name of the experiment", .required = true});
   Fields<MeasuredInput> measured;
-  measured.add("file", &MeasuredInput::file,
-               {.type = text,
-                .meaning = "CSV file of measured histories, relative to this file",
-                .required = true,
-                .group = "data"},
-               [](MeasuredInput& to, Tree& value, const Reading&) { to.file_at = value.at; });
-  add_columns(measured);
+  add_file(measured, {.required = true, .group = "data"});
+  add_columns(measured,
+              "channel = head of its column in the file, for time and every channel compared; a "
+              "unit stands in brackets at the end of the head");
   add_signals(measured);
   add_window(
       measured,
@@ -159,14 +123,6 @@ Fields<FitOptions> fit_fields() {
 }
 
 }  // namespace
-
-void add_columns(Fields<MeasuredInput>& measured) {
-  measured.read("columns",
-                {.type = overrides,
-                 .meaning = "channel = head of its column in the file, for time and every channel "
-                            "compared; a unit stands in brackets at the end of the head"},
-                read_columns);
-}
 
 Fields<StudyInput> calibration_fields() {
   Fields<StudyInput> calibration;

@@ -9,7 +9,4 @@ namespace linkstudy {
 // [[parameter]], [[experiment]], [fit].
 Fields<StudyInput> calibration_fields();
 
-// Columns of a CSV file: path of a channel = head.
-void add_columns(Fields<MeasuredInput>& measured);
-
 }  // namespace linkstudy

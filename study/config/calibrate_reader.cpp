@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 
 #include "core/simulation/channel_kinds.h"
+#include "study/config/measured_reader.h"
 #include "study/config/named_parameter.h"
 #include "study/config/value_list.h"
 
@@ -154,12 +154,12 @@ void check_sigma(const MeasuredInput& measured, Diagnostics& diagnostics) {
 }
 
 // Either a file and its columns, or a reference run and its signals.
-bool check_source(const LoadCaseInput& experiment, Diagnostics& diagnostics) {
+void check_source(const LoadCaseInput& experiment, Diagnostics& diagnostics) {
   const MeasuredInput& measured = *experiment.measured;
-  const Location& at = experiment.at;
   if (experiment.reference) {
     if (measured.signals.empty()) {
-      diagnostics.add(at, fmt::format("experiment '{}' names nothing to compare", experiment.name),
+      diagnostics.add(experiment.at,
+                      fmt::format("experiment '{}' names nothing to compare", experiment.name),
                       "signals = [\"closure.S.force\"]");
     }
     if (!measured.columns.empty()) {
@@ -167,22 +167,15 @@ bool check_source(const LoadCaseInput& experiment, Diagnostics& diagnostics) {
                       "columns belong to a file, and this experiment has a reference run",
                       "write signals = [...] in place of columns");
     }
-    return false;
+    return;
   }
   if (!measured.signals.empty()) {
     diagnostics.add(measured.signals.front().at,
                     "signals belong to a reference run, and this experiment has a file",
                     "write columns = { ... } in place of signals");
   }
-  const auto is_time = [](const WantedColumn& one) { return one.channel == "time"; };
-  const auto times = std::ranges::count_if(measured.columns, is_time);
-  if (times == 1 && measured.columns.size() > 1) return true;
-  diagnostics.add(at,
-                  times == 1 ? fmt::format("experiment '{}' compares no channel", experiment.name)
-                             : fmt::format("experiment '{}' does not say which column is the time",
-                                           experiment.name),
-                  "columns = { time = \"t [s]\", \"closure.S.force.x\" = \"Fx [N]\" }");
-  return false;
+  check_columns(measured, fmt::format("experiment '{}'", experiment.name), experiment.at,
+                diagnostics);
 }
 
 }  // namespace
@@ -194,15 +187,11 @@ WrittenValues read_calibrated(const ModelDocument& document, Tree& study, StudyI
   return CalibratedReader(document, input, diagnostics).run(*list);
 }
 
-void read_experiments(StudyInput& input, Diagnostics& diagnostics) {
-  const auto folder = std::filesystem::path(input.file).parent_path();
-  for (LoadCaseInput& experiment : input.load_case) {
+void check_experiments(const StudyInput& input, Diagnostics& diagnostics) {
+  for (const LoadCaseInput& experiment : input.load_case) {
     if (!experiment.measured) continue;
-    MeasuredInput& measured = *experiment.measured;
-    check_sigma(measured, diagnostics);
-    if (!check_source(experiment, diagnostics) || measured.file.empty()) continue;
-    const std::string path = (folder / measured.file).lexically_normal().string();
-    measured.data = read_measured_data(path, measured.file_at, measured.columns, diagnostics);
+    check_sigma(*experiment.measured, diagnostics);
+    check_source(experiment, diagnostics);
   }
 }
 

@@ -1,5 +1,5 @@
 // What the tables of a calibration say beyond their rows: roles and ranges of parameters in the
-// units of the model, and the data of experiments.
+// units of the model, and what experiments are compared with.
 #pragma once
 
 #include "study/config/study_cases.h"
@@ -12,7 +12,7 @@ namespace linkstudy {
 WrittenValues read_calibrated(const ModelDocument& document, Tree& study, StudyInput& input,
                               Diagnostics& diagnostics);
 
-// The files of the experiments; what they and their keys lack.
-void read_experiments(StudyInput& input, Diagnostics& diagnostics);
+// What experiments and their keys lack.
+void check_experiments(const StudyInput& input, Diagnostics& diagnostics);
 
 }  // namespace linkstudy

@@ -175,12 +175,20 @@ std::shared_ptr<const MeasuredData> read_measured_data(const std::string& path, 
                                                        const std::vector<WantedColumn>& wanted,
                                                        Diagnostics& diagnostics) {
   Diagnostics unreadable;
-  auto data = std::make_shared<MeasuredData>();
-  if (auto text = read_text_file(path, unreadable)) data->text = std::move(*text);
+  std::optional<std::string> text = read_text_file(path, unreadable);
   for (const Diagnostic& one : unreadable.sorted()) {
     diagnostics.add(at, fmt::format("data '{}': {}", path, one.message), one.remedy);
   }
-  if (!unreadable.empty()) return nullptr;
+  if (!text || !unreadable.empty()) return nullptr;
+  return parse_measured_data(std::move(*text), path, at, wanted, diagnostics);
+}
+
+std::shared_ptr<const MeasuredData> parse_measured_data(std::string text, const std::string& path,
+                                                        const Location& at,
+                                                        const std::vector<WantedColumn>& wanted,
+                                                        Diagnostics& diagnostics) {
+  auto data = std::make_shared<MeasuredData>();
+  data->text = std::move(text);
   std::vector<CsvLine> lines = split_text(data->text);
   if (lines.size() < 2) {
     diagnostics.add(at, fmt::format("data '{}': there are no lines of numbers in it", path),

@@ -41,4 +41,10 @@ std::shared_ptr<const MeasuredData> read_measured_data(const std::string& path, 
                                                        const std::vector<WantedColumn>& wanted,
                                                        Diagnostics& diagnostics);
 
+// The same from the text of the file; `path` is its name in messages.
+std::shared_ptr<const MeasuredData> parse_measured_data(std::string text, const std::string& path,
+                                                        const Location& at,
+                                                        const std::vector<WantedColumn>& wanted,
+                                                        Diagnostics& diagnostics);
+
 }  // namespace linkstudy

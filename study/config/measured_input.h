@@ -1,5 +1,5 @@
-// What simulated histories are compared with in a calibration: measured data of a file, or a run of
-// the model itself.
+// What simulated histories are compared with: measured data of a file, or, in a calibration, a run
+// of the model itself.
 #pragma once
 
 #include "study/config/measured_data.h"
@@ -38,6 +38,12 @@ struct MeasuredInput {
   double time_offset = 0.0;
   bool fits_offset = false;
   Location offset_at;
+};
+
+// A file of measured data, by its name in the study.
+struct DataText {
+  std::string name;
+  std::string text;
 };
 
 // [[parameter]] of a calibration.

@@ -164,8 +164,18 @@ const ReferenceInput* reference_of(const StudyInput& input, const LoadCaseInput&
   return input.reference ? &*input.reference : nullptr;
 }
 
+const ReferenceInput* reference_run_of(const StudyInput& input, const LoadCaseInput& load_case) {
+  const ReferenceInput* reference = reference_of(input, load_case);
+  return reference != nullptr && reference->is_run() ? reference : nullptr;
+}
+
+const MeasuredInput* reference_data_of(const StudyInput& input, const LoadCaseInput& load_case) {
+  const ReferenceInput* reference = reference_of(input, load_case);
+  return reference == nullptr || reference->is_run() ? nullptr : &*reference->measured;
+}
+
 std::vector<Override> reference_overrides(const StudyInput& input, const LoadCaseInput& load_case) {
-  return join(reference_of(input, load_case)->set, load_case.set);
+  return join(reference_run_of(input, load_case)->set, load_case.set);
 }
 
 void apply_command_line(std::span<const Override> command_line, StudyInput& input,
@@ -184,7 +194,7 @@ void apply_command_line(std::span<const Override> command_line, StudyInput& inpu
     if (has_reference) warn_of_likeness(input, override, diagnostics);
     replace_in_set(input.base_set, input.model, override);
     for (LoadCaseInput& one : input.load_case) {
-      if (!one.reference) continue;
+      if (!one.reference || !one.reference->is_run()) continue;
       one.reference->model = input.model;
       replace_in_set(one.reference->set, input.model, override);
     }

@@ -14,10 +14,13 @@ namespace linkstudy {
 std::vector<Override> case_overrides(const StudyInput& input, const LoadCaseInput& load_case,
                                      std::vector<Override> point);
 
-// What is set in the model of the reference.
-// The run that a load case is compared with: its own, else that of all; or null.
+// What a load case is compared with: its own reference, else that of all; or null.
 const ReferenceInput* reference_of(const StudyInput& input, const LoadCaseInput& load_case);
+// The same where it is a run, and where it is measured data; else null.
+const ReferenceInput* reference_run_of(const StudyInput& input, const LoadCaseInput& load_case);
+const MeasuredInput* reference_data_of(const StudyInput& input, const LoadCaseInput& load_case);
 
+// What is set in the model of the reference run.
 std::vector<Override> reference_overrides(const StudyInput& input, const LoadCaseInput& load_case);
 
 // Writes --set into the models and sets of the study. A path that no model has is reported; that a

@@ -204,7 +204,7 @@ class CaseCheck {
   }
 
   void try_reference(const LoadCaseInput& load_case) {
-    const ReferenceInput* reference = reference_of(input_, load_case);
+    const ReferenceInput* reference = reference_run_of(input_, load_case);
     if (reference == nullptr || !reference->model) return;
     const auto model = build(*reference->model, reference_overrides(input_, load_case));
     if (!model) return;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "study/config/read_value.h"
@@ -25,6 +26,29 @@ void require_unique(const Tree& study, const char* list, Diagnostics& diagnostic
       break;
     }
   }
+}
+
+// Every load case is compared with its own reference or with the common one.
+void check_references(const Tree& study, const Tree& match, Diagnostics& diagnostics) {
+  const Tree* common = study.find("reference");
+  const Tree* load_cases = study.find("load_case");
+  const bool has_cases = load_cases != nullptr && load_cases->is(Kind::array);
+  const std::vector<Tree> cases = has_cases ? load_cases->items : std::vector<Tree>();
+  const auto lacks = [](const Tree& one) { return one.find("reference") == nullptr; };
+  const auto bare = std::ranges::find_if(cases, lacks);
+  if (common != nullptr && !cases.empty() && bare == cases.end()) {
+    diagnostics.add(common->at, "nothing is compared with this: every load case has a reference",
+                    "take it out, or the references of some load cases");
+  }
+  if (common != nullptr || (!cases.empty() && bare == cases.end())) return;
+  const bool is_some = std::ranges::any_of(cases, [&](const Tree& one) { return !lacks(one); });
+  if (is_some) {
+    diagnostics.add(bare->at, "this load case has no reference to compare with",
+                    "give it one, or the study a [reference] for all that have none");
+    return;
+  }
+  diagnostics.add(match.at, "[[match]] needs a reference to compare with",
+                  "add reference = { set = { \"closure.S.model\" = \"cut\" } }");
 }
 
 }  // namespace
@@ -85,10 +109,7 @@ void check_study(const Tree& study, FileKind kind, Diagnostics& diagnostics) {
     diagnostics.add(study.at, "a refinement needs something to judge",
                     "add [[response]], [[series]] or [[match]]");
   }
-  if (match != nullptr && match->is_valid() && study.find("reference") == nullptr) {
-    diagnostics.add(match->at, "[[match]] needs a reference to compare with",
-                    "add reference = { set = { \"closure.S.model\" = \"cut\" } }");
-  }
+  if (match != nullptr && match->is_valid()) check_references(study, *match, diagnostics);
 }
 
 }  // namespace linkstudy

@@ -42,10 +42,14 @@ inline constexpr auto kWords<RefineLimit> = make_words<RefineLimit>(
     {{RefineLimit::zero, "zero", "finer is smaller: h is the value"},
      {RefineLimit::infinity, "infinity", "finer is larger: h is 1 / value"}});
 
+// What is compared with: a run of a model, or measured data.
 struct ReferenceInput {
-  std::shared_ptr<const ModelDocument> model;  // the study's own model where no other is named
+  std::shared_ptr<const ModelDocument> model;  // of a run; the study's own where no other is named
   std::vector<Override> set;
+  std::optional<MeasuredInput> measured;
   Location at;
+
+  bool is_run() const { return !measured; }
 };
 
 struct VaryInput {
@@ -111,7 +115,9 @@ struct LoadCaseInput {
   std::vector<Override> set;
   Location at;
   std::optional<MeasuredInput> measured = {};
-  std::optional<ReferenceInput> reference = {};  // a run that stands for measurements
+  // What this load case is compared with in place of the common reference; of an experiment a run
+  // that stands for measurements.
+  std::optional<ReferenceInput> reference = {};
 };
 
 struct TuneInput {
@@ -167,7 +173,8 @@ struct StudyInput {
 struct ResolvedTexts {
   std::string study;
   std::string model;
-  std::string reference;  // its model; empty where that is the same
+  std::string reference;       // its model; empty where that is the same
+  std::vector<DataText> data;  // each once
 };
 // The input of results again, without the files it was read from; `file` is the name in messages.
 std::optional<StudyInput> read_study(const ResolvedTexts& texts, const std::string& file,

@@ -5,6 +5,7 @@
 
 #include "study/config/calibrate_keys.h"
 #include "study/config/common_fields.h"
+#include "study/config/measured_keys.h"
 #include "study/config/model_keys.h"
 #include "study/config/study_checks.h"
 
@@ -26,9 +27,10 @@ void add_reference(Fields<Study>& study) {
   Fields<ReferenceInput> reference;
   reference.read("model", {.type = text, .meaning = "another model file; default: the same model"});
   reference.add("set", &ReferenceInput::set, set_row("the reference"));
-  study.table("reference", &Study::reference, {.meaning = "the run that [[match]] compares with"},
-              std::move(reference),
-              [](Study& to, Tree& table, const Reading&) { to.reference->at = table.at; });
+  add_reference_data(reference);
+  study.table("reference", &Study::reference,
+              {.meaning = "what [[match]] compares with: a run, or measured data"},
+              std::move(reference));
 }
 
 void add_base(Fields<Study>& study) {
@@ -121,6 +123,11 @@ void add_traces_and_cases(Fields<Study>& study) {
   load_case.add("name", &LoadCaseInput::name,
                 {.type = name, .meaning = "name of the load case", .required = true});
   load_case.add("set", &LoadCaseInput::set, set_row("the load case"));
+  Fields<ReferenceInput> reference;
+  add_reference_data(reference);
+  load_case.table("reference", &LoadCaseInput::reference,
+                  {.meaning = "data measured in this load case; default: the [reference] of all"},
+                  std::move(reference));
   load_case.finish([](LoadCaseInput& to, Tree& table, const Reading&) { to.at = table.at; });
   study.tables("load_case", &Study::load_case,
                {.meaning = "model values that are run beside each other, each case with all"},

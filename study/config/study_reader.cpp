@@ -5,6 +5,7 @@
 
 #include "study/config/calibrate_reader.h"
 #include "study/config/fill.h"
+#include "study/config/measured_reader.h"
 #include "study/config/named_parameter.h"
 #include "study/config/precedence.h"
 #include "study/config/refine_checks.h"
@@ -24,7 +25,7 @@ using Document = std::shared_ptr<const ModelDocument>;
 
 class StudyReader {
  public:
-  // `texts`: of the models, where their files are not to be read.
+  // `texts`: of models and data, where their files are not to be read.
   StudyReader(Tree study, std::string file, std::span<const Override> model_set,
               const ResolvedTexts* texts, Diagnostics& diagnostics)
       : study_(std::move(study)), model_set_(model_set), texts_(texts), diagnostics_(diagnostics) {
@@ -39,6 +40,7 @@ class StudyReader {
     load_models();
     write_command_line();
     if (input_.model) read_parameters();
+    read_measured(input_, texts_ == nullptr ? nullptr : &texts_->data, diagnostics_);
     require_one_source(model_set_, input_, diagnostics_);
     if (has_rows_) check_cases(input_, written_, model_set_, diagnostics_);
     input_.resolved = study_;
@@ -72,9 +74,9 @@ class StudyReader {
   void load_models() {
     input_.model = load_model(study_);
     for (LoadCaseInput& one : input_.load_case) {
-      if (one.reference) one.reference->model = input_.model;
+      if (one.reference && one.reference->is_run()) one.reference->model = input_.model;
     }
-    if (!input_.reference) return;
+    if (!input_.reference || !input_.reference->is_run()) return;
     const Tree& tree = *study_.find("reference");
     const bool has_own = tree.find("model") != nullptr;
     input_.reference->model = has_own ? load_model(tree) : input_.model;
@@ -116,7 +118,7 @@ class StudyReader {
     const ModelDocument document = base_document();
     if (input_.kind == FileKind::calibrate) {
       written_ = read_calibrated(document, study_, input_, diagnostics_);
-      read_experiments(input_, diagnostics_);
+      check_experiments(input_, diagnostics_);
       return;
     }
     Tree* entries = study_.find(list_of(input_.kind));

@@ -35,20 +35,21 @@ std::optional<RunTimes> read_times(const ModelDocument& document,
 
 class TimesCheck {
  public:
-  TimesCheck(const StudyInput& input, Diagnostics& diagnostics)
-      : input_(input), diagnostics_(diagnostics) {}
+  TimesCheck(const StudyInput& input, const MeasuredReferences& measured, Diagnostics& diagnostics)
+      : input_(input), measured_(measured), diagnostics_(diagnostics) {}
 
   void run() {
     const std::vector<std::vector<Override>> points = deciding_points();
-    for (const LoadCaseInput& load_case : load_cases_of(input_)) {
+    const std::vector<LoadCaseInput> load_cases = load_cases_of(input_);
+    for (std::size_t i = 0; i < load_cases.size(); ++i) {
       std::optional<RunTimes> reference;
-      if (input_.reference) {
-        reference = read_times(*input_.reference->model, reference_overrides(input_, load_case));
+      if (const ReferenceInput* run = reference_run_of(input_, load_cases[i])) {
+        reference = read_times(*run->model, reference_overrides(input_, load_cases[i]));
         if (!reference) continue;
       }
       for (const std::vector<Override>& point : points) {
-        const auto own = read_times(*input_.model, case_overrides(input_, load_case, point));
-        if (own) check_run(*own, reference);
+        const auto own = read_times(*input_.model, case_overrides(input_, load_cases[i], point));
+        if (own) check_run(*own, reference, measured_.at(i).get());
       }
     }
   }
@@ -107,9 +108,11 @@ class TimesCheck {
     return split_path(path).front() == "simulation";
   }
 
-  void check_run(const RunTimes& own, const std::optional<RunTimes>& reference) {
-    for (const MatchInput& match : input_.match) {
-      if (reference) check_match(match, own, *reference);
+  void check_run(const RunTimes& own, const std::optional<RunTimes>& reference,
+                 const MeasuredReference* measured) {
+    for (std::size_t i = 0; i < input_.match.size(); ++i) {
+      if (reference) check_match(input_.match[i], own, *reference);
+      if (measured != nullptr) check_measured(input_.match[i], own, measured->match[i]);
     }
     for (const ResponseInput& response : input_.response) {
       const Location& at = place_of(response.window, response.at);
@@ -138,6 +141,19 @@ class TimesCheck {
            fmt::format("'{}' is compared up to {:.9g} s, and the reference run ends at {:.9g} s",
                        match.signal, own.end_time, reference.end_time),
            "give a window, or equal end times");
+  }
+
+  void check_measured(const MatchInput& match, const RunTimes& own, const MeasuredSet& set) {
+    const Location& at = place_of(match.window, match.at);
+    if (!check_end(match.window, own.end_time, at)) return;
+    const double reached = own.grid.h * static_cast<double>(own.grid.count);
+    const double slack = 1e-9 * reached;
+    if (set.first() >= -slack && set.last() <= reached + slack) return;
+    report(at,
+           fmt::format("'{}' was measured from {:.9g} s to {:.9g} s, and the run reaches from 0 to "
+                       "{:.9g} s",
+                       match.signal, set.first(), set.last(), reached),
+           "give a window or a time_offset, or change simulation.end_time");
   }
 
   void report_grids(const MatchInput& match, const RunTimes& own, const RunTimes& reference) {
@@ -177,14 +193,16 @@ class TimesCheck {
   }
 
   const StudyInput& input_;
+  const MeasuredReferences& measured_;
   Diagnostics& diagnostics_;
   std::set<std::tuple<std::string, int, int>> places_;
 };
 
 }  // namespace
 
-void check_times(const StudyInput& input, Diagnostics& diagnostics) {
-  TimesCheck(input, diagnostics).run();
+void check_times(const StudyInput& input, const MeasuredReferences& measured,
+                 Diagnostics& diagnostics) {
+  TimesCheck(input, measured, diagnostics).run();
 }
 
 }  // namespace linkstudy

@@ -8,7 +8,6 @@
 #include <limits>
 
 #include "study/config/precedence.h"
-#include "study/evaluate/check_times.h"
 #include "study/evaluate/derived_damping.h"
 #include "study/metrics/invalid_point.h"
 
@@ -105,11 +104,14 @@ std::optional<StudySignals> check_study_signals(const StudyInput& input,
       read_channels(*input.model, case_overrides(input, load_case, first), diagnostics);
   if (!own) return std::nullopt;
   StudySignals signals = find_case_signals(input, *own, diagnostics);
-  if (!input.reference) return signals;
-  const auto other =
-      read_channels(*input.reference->model, reference_overrides(input, load_case), diagnostics);
-  if (!other) return std::nullopt;
-  check_signals(input, signals, find_reference_signals(input, *other, diagnostics), diagnostics);
+  for (const LoadCaseInput& one : load_cases_of(input)) {
+    const ReferenceInput* run = one.measured ? nullptr : reference_run_of(input, one);
+    if (run == nullptr) continue;
+    const auto other = read_channels(*run->model, reference_overrides(input, one), diagnostics);
+    if (!other) return std::nullopt;
+    check_signals(input, signals, find_reference_signals(input, *other, diagnostics), diagnostics);
+    break;  // the common one: its signals are the same in every load case
+  }
   return signals;
 }
 
@@ -140,6 +142,25 @@ std::vector<std::shared_ptr<const MeasuredSet>> make_file_sets(const StudyInput&
     sets.back() = std::move(set);
   }
   return sets;
+}
+
+// What matches are compared with where that is data.
+MeasuredReferences make_measured_references(const StudyInput& input,
+                                            const std::vector<Override>& first,
+                                            Diagnostics& diagnostics) {
+  MeasuredReferences references;
+  for (const LoadCaseInput& one : load_cases_of(input)) {
+    references.emplace_back();
+    const MeasuredInput* measured = reference_data_of(input, one);
+    if (measured == nullptr || !measured->data) continue;
+    const auto channels =
+        read_channels(*input.model, case_overrides(input, one, first), diagnostics);
+    if (!channels) continue;
+    const StudySignals signals = find_case_signals(input, *channels, diagnostics);
+    references.back() = std::make_shared<const MeasuredReference>(
+        make_measured_reference(input, *measured, signals, diagnostics));
+  }
+  return references;
 }
 
 // Signals of a reference run that stands for measurements, and whether both runs reach them.
@@ -173,9 +194,14 @@ std::unique_ptr<Evaluator> Evaluator::make(StudyInput input, std::vector<Paramet
   Diagnostics found;
   const std::vector<Override> point = to_overrides(parameters, first);
   auto signals = check_study_signals(input, point, found);
+  MeasuredReferences references(load_cases_of(input).size());
+  if (signals && found.empty()) {
+    MeasuredReferences made = make_measured_references(input, point, found);
+    if (found.empty()) references = std::move(made);
+  }
   if (signals) {
     check_response_names(input, *signals, parameters, found);
-    check_times(input, found);
+    check_times(input, references, found);
   }
   auto measured = make_file_sets(input, point, found);
   for (const LoadCaseInput& one : input.load_case) {
@@ -189,6 +215,7 @@ std::unique_ptr<Evaluator> Evaluator::make(StudyInput input, std::vector<Paramet
   diagnostics.append(found);
   if (!found.empty()) return nullptr;
   evaluator->measured_ = std::move(measured);
+  evaluator->measured_references_ = std::move(references);
   return evaluator;
 }
 
@@ -217,7 +244,7 @@ double Evaluator::worst(RunNumber number, const std::vector<double>& responses) 
 }
 
 bool Evaluator::has_reference(std::size_t i) const {
-  return reference_of(input_, load_cases_.at(i)) != nullptr;
+  return reference_run_of(input_, load_cases_.at(i)) != nullptr;
 }
 
 const ReferenceRecord* Evaluator::reference(std::size_t load_case) {
@@ -244,6 +271,7 @@ std::shared_ptr<const MeasuredSet> Evaluator::measured_set(std::size_t load_case
 
 MeasuredRun Evaluator::measured_run(std::size_t load_case, const Point& point) {
   MeasuredRun run{measured_set(load_case)};
+  run.reference = measured_references_.at(load_case);
   if (!run.set) return run;
   run.offset = run.set->offset;
   const std::string path = measured_offset_path(load_cases_[load_case].name);
@@ -291,6 +319,9 @@ std::vector<CaseTraces> Evaluator::reference_traces() const {
   std::vector<CaseTraces> traces;
   for (std::size_t i = 0; i < load_cases_.size(); ++i) {
     if (references_[i]) traces.push_back({load_cases_[i].name, references_[i]->traces});
+    if (measured_references_[i]) {
+      traces.push_back({load_cases_[i].name, measured_references_[i]->traces});
+    }
   }
   return traces;
 }

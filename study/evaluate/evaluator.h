@@ -16,6 +16,7 @@
 #include <span>
 #include <vector>
 
+#include "study/evaluate/check_times.h"
 #include "study/evaluate/prepared_case.h"
 #include "study/evaluate/reference_run.h"
 #include "study/metrics/judged_errors.h"
@@ -60,7 +61,7 @@ class Evaluator {
   // As another start or another rank ran it. Throws std::out_of_range where it is none of this
   // study's.
   void set_reference(std::size_t load_case, ReferenceRecord record);
-  // Histories of the references, by load case; empty without a reference.
+  // Histories of the references, runs and data, by load case; empty without a reference.
   std::vector<CaseTraces> reference_traces() const;
 
   // What residuals of a load case are taken against; null where it is no experiment. Runs its
@@ -113,6 +114,7 @@ class Evaluator {
   mutable std::mutex mutex_;
   std::vector<std::optional<ReferenceRecord>> references_;    // by load case
   std::vector<std::shared_ptr<const MeasuredSet>> measured_;  // by load case
+  MeasuredReferences measured_references_;
 };
 
 }  // namespace linkstudy

@@ -25,11 +25,23 @@ void raise_to_floor(std::vector<double>& scales, double floor) {
   for (double& scale : scales) scale = std::max(scale, least);
 }
 
-double relative(double error, double scale) {
-  return error == 0.0 ? 0.0 : error / scale;
+}  // namespace
+
+ErrorScales make_scales(const MatchInput& match, std::vector<double> largest,
+                        std::vector<double> root_mean, double longest, double root_mean_length) {
+  if (match.scale == ErrorScale::vector) {
+    largest.assign(largest.size(), longest);
+    root_mean.assign(root_mean.size(), root_mean_length);
+  } else {
+    raise_to_floor(largest, match.floor);
+    raise_to_floor(root_mean, match.floor);
+  }
+  return {std::move(largest), std::move(root_mean)};
 }
 
-}  // namespace
+double relative_error(double error, double scale) {
+  return error == 0.0 ? 0.0 : error / scale;
+}
 
 MatchError::MatchError(const MatchInput& match, const std::vector<Channel>& channels,
                        const StepGrid& grid, const Series& reference,
@@ -58,7 +70,7 @@ void MatchError::measure_reference(const MatchInput& match) {
   const std::size_t n = channels_.size();
   const std::size_t samples = reference_.size() / n;
   std::vector<double> squares(n, 0.0);
-  max_scale_.assign(n, 0.0);
+  std::vector<double> largest(n, 0.0);
   double max_square = 0.0;
   double square = 0.0;
   for (std::size_t row = 0; row < samples; ++row) {
@@ -67,7 +79,7 @@ void MatchError::measure_reference(const MatchInput& match) {
     double length_square = 0.0;
     for (std::size_t c = 0; c < n; ++c) {
       const double r = reference_[row * n + c];
-      max_scale_[c] = std::max(max_scale_[c], std::abs(r));
+      largest[c] = std::max(largest[c], std::abs(r));
       squares[c] += weight * r * r;
       length_square += r * r;
     }
@@ -76,15 +88,10 @@ void MatchError::measure_reference(const MatchInput& match) {
   }
   const double length = total_weight(sampling_, {});
   const auto mean_root = [&](double sum) { return std::sqrt(sum / length); };
-  rms_scale_.clear();
-  for (const double sum : squares) rms_scale_.push_back(mean_root(sum));
-  if (match.scale == ErrorScale::vector) {
-    max_scale_.assign(n, std::sqrt(max_square));
-    rms_scale_.assign(n, mean_root(square));
-  } else {
-    raise_to_floor(max_scale_, match.floor);
-    raise_to_floor(rms_scale_, match.floor);
-  }
+  std::vector<double> root_mean;
+  for (const double sum : squares) root_mean.push_back(mean_root(sum));
+  scales_ = make_scales(match, std::move(largest), std::move(root_mean), std::sqrt(max_square),
+                        mean_root(square));
 }
 
 Comparison MatchError::make_comparison() const {
@@ -99,11 +106,12 @@ Comparison MatchError::make_comparison() const {
 std::vector<double> MatchError::reduce(const Comparison& comparison) const {
   std::vector<double> errors;
   for (std::size_t c = 0; c < channels_.size(); ++c) {
-    errors.push_back(relative(comparison.max_error[c], max_scale_[c]));
+    errors.push_back(relative_error(comparison.max_error[c], scales_.max[c]));
   }
   const double length = total_weight(sampling_, {});
   for (std::size_t c = 0; c < channels_.size(); ++c) {
-    errors.push_back(relative(std::sqrt(comparison.square_error[c] / length), rms_scale_[c]));
+    errors.push_back(
+        relative_error(std::sqrt(comparison.square_error[c] / length), scales_.rms[c]));
   }
   return errors;
 }

@@ -17,6 +17,19 @@
 
 namespace linkstudy {
 
+// What errors are divided by, by component.
+struct ErrorScales {
+  std::vector<double> max;
+  std::vector<double> rms;
+};
+
+// From the greatest absolute values and root mean squares of the components, and of the length of
+// their vector.
+ErrorScales make_scales(const MatchInput& match, std::vector<double> largest,
+                        std::vector<double> root_mean, double longest, double root_mean_length);
+
+double relative_error(double error, double scale);
+
 class MatchError {
  public:
   // Throws InvalidPoint when the two runs share no instants in the window.
@@ -36,8 +49,7 @@ class MatchError {
   Sampling sampling_;
   double sign_;
   std::vector<double> reference_;  // (samples, channels)
-  std::vector<double> max_scale_;  // (channels)
-  std::vector<double> rms_scale_;  // (channels)
+  ErrorScales scales_;
 };
 
 }  // namespace linkstudy

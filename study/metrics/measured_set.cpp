@@ -36,17 +36,6 @@ const Channel* find_one(const MeasuredChannel& measured, const std::vector<Chann
   return nullptr;
 }
 
-bool fits_unit(const MeasuredChannel& measured, const Channel& channel, Diagnostics& diagnostics) {
-  const std::optional<Unit> own = parse_unit(channel.unit);
-  if (!measured.unit || !own || measured.unit->dimensions == own->dimensions) return true;
-  const std::string hint = explain_angle(*measured.unit, *own);
-  diagnostics.add(measured.at,
-                  fmt::format("'{}' is in {}, and its column in {}", channel.name, channel.unit,
-                              dimension_text(measured.unit->dimensions)),
-                  hint.empty() ? "give the column a unit of that kind" : hint);
-  return false;
-}
-
 // The sigma that names a channel most exactly.
 const SigmaInput* find_sigma(const MeasuredInput& input, const std::string& channel) {
   const SigmaInput* best = nullptr;
@@ -73,6 +62,17 @@ bool is_inside(const std::optional<TimeWindow>& window, double time) {
 }
 
 }  // namespace
+
+bool fits_unit(const MeasuredChannel& measured, const Channel& channel, Diagnostics& diagnostics) {
+  const std::optional<Unit> own = parse_unit(channel.unit);
+  if (!measured.unit || !own || measured.unit->dimensions == own->dimensions) return true;
+  const std::string hint = explain_angle(*measured.unit, *own);
+  diagnostics.add(measured.at,
+                  fmt::format("'{}' is in {}, and its column in {}", channel.name, channel.unit,
+                              dimension_text(measured.unit->dimensions)),
+                  hint.empty() ? "give the column a unit of that kind" : hint);
+  return false;
+}
 
 std::size_t MeasuredSet::sample_count() const {
   std::size_t count = 0;

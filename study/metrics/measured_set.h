@@ -36,6 +36,9 @@ struct MeasuredSet {
 MeasuredSet make_measured_set(const MeasuredInput& input, const MeasuredData& data,
                               const std::vector<Channel>& channels, Diagnostics& diagnostics);
 
+// Whether the unit of a column, where it has one, is of the channel's kind; reported if not.
+bool fits_unit(const MeasuredChannel& measured, const Channel& channel, Diagnostics& diagnostics);
+
 // The histories of a reference run at its output instants, as if measured; without a window all but
 // its start, where an unloaded spring never matches.
 MeasuredData to_measured_data(const MeasuredInput& input, const std::vector<Trace>& traces);
@@ -64,10 +67,10 @@ class InstantSampler {
   const Sampling& sampling() const { return sampling_; }
   // `series` has a channel for each signal.
   std::vector<double> residuals(const MeasuredSet& set, const Series& series) const;
-
- private:
+  // At the instants, signal by signal.
   std::vector<double> simulated(const MeasuredSet& set, const Series& series) const;
 
+ private:
   struct Place {
     long step = 0;
     double part = 0.0;  // of the way to the next step

@@ -62,8 +62,9 @@ RunMetrics::RunMetrics(const StudyInput& input, const StudySignals& signals,
                        const SimulationOptions& options, const ReferenceRecord* reference,
                        const RunMetrics* like, const MeasuredRun& measured)
     : grid_(make_step_grid(options)) {
-  const bool has_same = like != nullptr && like->compares_alike(signals, grid_, reference);
-  compared_ = has_same ? like->compared_ : compare(input, signals, grid_, reference);
+  const bool has_same =
+      like != nullptr && like->compares_alike(signals, grid_, reference, measured);
+  compared_ = has_same ? like->compared_ : compare(input, signals, grid_, reference, measured);
   for (const MatchError& match : compared_->matches) {
     observers_.comparisons.push_back(match.make_comparison());
   }
@@ -72,6 +73,10 @@ RunMetrics::RunMetrics(const StudyInput& input, const StudySignals& signals,
   if (!signals.trace.empty()) {
     has_traces_ = true;
     observers_.series.push_back(make_histories(signals.trace, grid_, options.output_interval));
+  }
+  first_match_ = observers_.series.size();
+  for (std::size_t i = 0; i < compared_->measured_matches.size(); ++i) {
+    observers_.series.push_back({signals.match[i], compared_->measured_matches[i].sampling(), {}});
   }
   if (!measured.set) return;
   measured_ = measured.set;
@@ -87,9 +92,14 @@ std::vector<double> RunMetrics::residuals(const SimulationOutcome& outcome) cons
 std::shared_ptr<const RunMetrics::Compared> RunMetrics::compare(const StudyInput& input,
                                                                 const StudySignals& signals,
                                                                 const StepGrid& grid,
-                                                                const ReferenceRecord* reference) {
-  Compared compared{grid, reference, signals.match, {}, {}};
+                                                                const ReferenceRecord* reference,
+                                                                const MeasuredRun& measured) {
+  Compared compared{grid, reference, measured.reference, signals.match, {}, {}, {}};
   for (std::size_t i = 0; i < input.match.size(); ++i) {
+    if (measured.reference) {
+      compared.measured_matches.emplace_back(*measured.reference, i, grid);
+      continue;
+    }
     compared.matches.emplace_back(input.match[i], signals.match[i], grid, reference->match[i],
                                   reference->grid);
   }
@@ -100,10 +110,11 @@ std::shared_ptr<const RunMetrics::Compared> RunMetrics::compare(const StudyInput
 }
 
 bool RunMetrics::compares_alike(const StudySignals& signals, const StepGrid& grid,
-                                const ReferenceRecord* reference) const {
+                                const ReferenceRecord* reference,
+                                const MeasuredRun& measured) const {
   const Compared& own = *compared_;
   return own.grid.count == grid.count && own.grid.h == grid.h && own.reference == reference &&
-         own.zeros.empty() == signals.gaps.empty() &&
+         own.measured == measured.reference && own.zeros.empty() == signals.gaps.empty() &&
          std::ranges::equal(own.channels, signals.match, same_channels);
 }
 
@@ -140,6 +151,13 @@ std::vector<double> RunMetrics::reduce(const SimulationOutcome& outcome) const {
   std::vector<double> numbers;
   for (std::size_t i = 0; i < compared_->matches.size(); ++i) {
     const std::vector<double> errors = compared_->matches[i].reduce(observers_.comparisons[i]);
+    numbers.insert(numbers.end(), errors.begin(), errors.end());
+  }
+  for (std::size_t i = 0; i < compared_->measured_matches.size(); ++i) {
+    // A run that failed has no samples after its end.
+    const std::vector<double> errors =
+        is_ok ? compared_->measured_matches[i].reduce(observers_.series[first_match_ + i])
+              : std::vector<double>(2 * compared_->channels[i].size(), kNan);
     numbers.insert(numbers.end(), errors.begin(), errors.end());
   }
   if (sampler_) {

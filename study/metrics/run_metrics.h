@@ -6,22 +6,23 @@
 #include <vector>
 
 #include "study/metrics/match_error.h"
-#include "study/metrics/measured_set.h"
+#include "study/metrics/measured_match.h"
 #include "study/metrics/response_list.h"
 
 namespace linkstudy {
 
 // What was measured in the run, and when that was, on its clock.
 struct MeasuredRun {
-  std::shared_ptr<const MeasuredSet> set;  // or null
-  double offset = 0.0;                     // s
-  bool varies = false;                     // the offset does from run to run
+  std::shared_ptr<const MeasuredSet> set;                   // or null
+  double offset = 0.0;                                      // s
+  bool varies = false;                                      // the offset does from run to run
+  std::shared_ptr<const MeasuredReference> reference = {};  // of [[match]], or null
 };
 
 class RunMetrics {
  public:
-  // `reference` may be null when nothing is matched. What a run is compared with is taken from
-  // `like` where that has the same: it is megabytes. Throws InvalidPoint.
+  // `reference` may be null when nothing is matched, or with measured data. What a run is compared
+  // with is taken from `like` where that has the same: it is megabytes. Throws InvalidPoint.
   RunMetrics(const StudyInput& input, const StudySignals& signals, const SimulationOptions& options,
              const ReferenceRecord* reference, const RunMetrics* like = nullptr,
              const MeasuredRun& measured = {});
@@ -44,16 +45,19 @@ class RunMetrics {
   struct Compared {
     StepGrid grid;
     const ReferenceRecord* reference;
+    std::shared_ptr<const MeasuredReference> measured;
     std::vector<std::vector<Channel>> channels;  // by match
-    std::deque<MatchError> matches;
-    std::vector<double> zeros;  // what gaps are compared with
+    std::deque<MatchError> matches;              // with a run
+    std::deque<MeasuredMatch> measured_matches;  // with data
+    std::vector<double> zeros;                   // what gaps are compared with
   };
 
   static std::shared_ptr<const Compared> compare(const StudyInput& input,
                                                  const StudySignals& signals, const StepGrid& grid,
-                                                 const ReferenceRecord* reference);
+                                                 const ReferenceRecord* reference,
+                                                 const MeasuredRun& measured);
   bool compares_alike(const StudySignals& signals, const StepGrid& grid,
-                      const ReferenceRecord* reference) const;
+                      const ReferenceRecord* reference, const MeasuredRun& measured) const;
   void add_gaps(const StudySignals& signals);
   void add_responses(const StudyInput& input, const StudySignals& signals);
   double find_gap() const;
@@ -63,6 +67,7 @@ class RunMetrics {
   std::shared_ptr<const Compared> compared_;
   Observers observers_;  // comparisons: matches, then gaps
   bool has_traces_ = false;
+  std::size_t first_match_ = 0;  // series of the first match with data; the others follow
   std::shared_ptr<const MeasuredSet> measured_;
   std::optional<InstantSampler> sampler_;  // its series is the last
 };

@@ -13,24 +13,26 @@ using calibration::OtherValue;
 
 class CalibrationRun {
  public:
-  explicit CalibrationRun(StudySession& session) : session_(session) {}
+  CalibrationRun(const Evaluator& evaluator, const EvaluationSource& source)
+      : evaluator_(evaluator), source_(source) {}
 
   std::vector<FitAnswer> evaluate(const std::vector<std::vector<double>>& fitted) {
     std::vector<Point> points;
     for (const std::vector<double>& one : fitted) {
-      points.push_back({next_id_++, calibration_point(session_.evaluator().input(), one)});
+      points.push_back({next_id_++, calibration_point(evaluator_.input(), one)});
     }
-    session_.evaluate(points);
+    source_.evaluate(points);
     std::vector<FitAnswer> answers;
     for (const Point& point : points) {
-      const Evaluation& evaluation = session_.record().evaluations().at(point.id);
+      const Evaluation& evaluation = source_.find(point.id);
       answers.push_back({point.id, evaluation.status, evaluation.message, evaluation.residuals});
     }
     return answers;
   }
 
  private:
-  StudySession& session_;
+  const Evaluator& evaluator_;
+  const EvaluationSource& source_;
   std::uint64_t next_id_ = 0;
 };
 
@@ -67,17 +69,21 @@ void add_data(Evaluator& evaluator, FitReport& report) {
 
 }  // namespace
 
-FitReport run_calibration(StudySession& session) {
-  Evaluator& evaluator = session.evaluator();
+FitReport fit_calibration(Evaluator& evaluator, const EvaluationSource& source) {
   const StudyInput& input = evaluator.input();
-  CalibrationRun run(session);
+  CalibrationRun run(evaluator, source);
   FitReport report;
   report.fit = calibration::calibrate(make_fit_problem(evaluator), make_fit_options(input),
                                       [&](const auto& points) { return run.evaluate(points); });
   if (!report.fit.estimates.empty()) {
-    add_others(input, session.record().evaluations().at(report.fit.evaluation), report);
+    add_others(input, source.find(report.fit.evaluation), report);
   }
   add_data(evaluator, report);
+  return report;
+}
+
+FitReport run_calibration(StudySession& session) {
+  FitReport report = fit_calibration(session.evaluator(), source_of(session));
   session.record().set_answer(AnswerKind::calibration, calibration::write_json(report, ""),
                               calibration::make_tables(report));
   return report;

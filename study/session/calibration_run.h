@@ -3,11 +3,13 @@
 #pragma once
 
 #include "study/calibrate/fit_report.h"
-#include "study/session/session.h"
+#include "study/session/evaluation_source.h"
 
 namespace linkstudy {
 
-// Throws as StudySession::evaluate does.
+// Throws as the source does.
+calibration::FitReport fit_calibration(Evaluator& evaluator, const EvaluationSource& source);
+// The same; its answer is among the results. Throws as StudySession::evaluate does.
 calibration::FitReport run_calibration(StudySession& session);
 
 }  // namespace linkstudy

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "core/base/isa.h"
+#include "study/config/measured_reader.h"
 #include "study/config/toml_reader.h"
 #include "study/config/toml_writer.h"
 #include "study/record/digest.h"
@@ -23,6 +24,7 @@ namespace {
 constexpr const char* kResolvedStudy = "resolved_study";
 constexpr const char* kResolvedModel = "resolved_model";
 constexpr const char* kResolvedReference = "resolved_reference";
+constexpr const char* kFileSuffix = "_file";
 
 // Settings that change how a study is run and not what it computes.
 Tree without_run_settings(Tree resolved) {
@@ -48,6 +50,11 @@ std::string commented(const std::string& text) {
   return result;
 }
 
+// A run of another model.
+bool has_own_reference(const StudyInput& input) {
+  return input.reference && input.reference->is_run() && input.reference->model != input.model;
+}
+
 // The study with all defaults; what --set changed and the models follow as comments, so that the
 // text is a study file again.
 std::string resolved_text(const SessionOptions& options, const StudyInput& input) {
@@ -55,11 +62,24 @@ std::string resolved_text(const SessionOptions& options, const StudyInput& input
   for (const std::string& set : options.set) text += fmt::format("\n# --set {}\n", set);
   text += fmt::format("\n# Model of the cases, {}, with --set in it:\n", input.model->file());
   text += commented(write_toml(input.model->tree()));
-  if (input.reference && input.reference->model != input.model) {
+  if (has_own_reference(input)) {
     text += fmt::format("\n# Model of the reference, {}:\n", input.reference->model->file());
     text += commented(write_toml(input.reference->model->tree()));
   }
   return text;
+}
+
+std::string data_name(std::size_t i) {
+  return fmt::format("data_{}", i);
+}
+
+// The texts of measured data, and the files they are of.
+void add_data(const StudyInput& input, std::vector<NamedText>& texts) {
+  const std::vector<DataText> data = data_texts(input);
+  for (std::size_t i = 0; i < data.size(); ++i) {
+    texts.push_back({data_name(i), data[i].text});
+    texts.push_back({data_name(i) + kFileSuffix, data[i].name});
+  }
 }
 
 std::string machine_text(const Transport& transport) {
@@ -79,9 +99,11 @@ StudyIdentity make_identity(const SessionOptions& options, const Evaluator& eval
                           evaluator.parameters(), evaluator.responses()};
   std::vector<std::string> texts = {write_toml(without_run_settings(input.resolved)),
                                     write_toml(input.model->tree())};
-  if (input.reference) texts.push_back(write_toml(input.reference->model->tree()));
-  for (const LoadCaseInput& one : input.load_case) {
-    if (one.measured && one.measured->data) texts.push_back(one.measured->data->text);
+  if (input.reference && input.reference->is_run()) {
+    texts.push_back(write_toml(input.reference->model->tree()));
+  }
+  for (const MeasuredInput* one : measured_inputs(input)) {
+    if (one->data) texts.push_back(one->data->text);
   }
   identity.input_sha256 = input_sha256(texts);
   identity.texts = {{"input", text_of_file(input.file)},
@@ -91,9 +113,10 @@ StudyIdentity make_identity(const SessionOptions& options, const Evaluator& eval
                     {"machine", machine_text(transport)},
                     {kResolvedStudy, write_toml(input.resolved)},
                     {kResolvedModel, write_toml(input.model->tree())}};
-  if (input.reference && input.reference->model != input.model) {
+  if (has_own_reference(input)) {
     identity.texts.push_back({kResolvedReference, write_toml(input.reference->model->tree())});
   }
+  add_data(input, identity.texts);
   const BatchJob job = find_batch_job(read_environment);
   identity.start = {"",
                     unix_time_s(),
@@ -111,12 +134,19 @@ StudyIdentity make_identity(const SessionOptions& options, const Evaluator& eval
 }
 
 ResolvedTexts resolved_texts(const StudyResults& results) {
-  const auto text_of = [&](const char* name) {
+  const auto find = [&](const std::string& name) {
     const auto found = std::ranges::find(results.texts, name, &NamedText::name);
-    return found == results.texts.end() ? std::string() : found->text;
+    return found == results.texts.end() ? nullptr : &found->text;
   };
-  ResolvedTexts texts{text_of(kResolvedStudy), text_of(kResolvedModel),
-                      text_of(kResolvedReference)};
+  const auto text_of = [&](const std::string& name) {
+    const std::string* found = find(name);
+    return found == nullptr ? std::string() : *found;
+  };
+  ResolvedTexts texts{
+      text_of(kResolvedStudy), text_of(kResolvedModel), text_of(kResolvedReference), {}};
+  for (std::size_t i = 0; const std::string* data = find(data_name(i)); ++i) {
+    texts.data.push_back({text_of(data_name(i) + kFileSuffix), *data});
+  }
   if (!texts.study.empty() && !texts.model.empty()) return texts;
   throw StoreError("these results do not hold their models as they were run; run them again");
 }

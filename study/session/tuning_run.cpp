@@ -16,14 +16,7 @@ namespace linkstudy {
 using tuning::Answer;
 using tuning::Request;
 
-TuningRun::TuningRun(StudySession& session)
-    : TuningRun(session.evaluator(),
-                {[&session](const std::vector<Point>& points) { session.evaluate(points); },
-                 [&session](std::uint64_t id) -> const Evaluation& {
-                   return session.record().evaluations().at(id);
-                 }}) {}
-
-TuningRun::TuningRun(const Evaluator& evaluator, Source source)
+TuningRun::TuningRun(const Evaluator& evaluator, EvaluationSource source)
     : evaluator_(evaluator),
       source_(std::move(source)),
       base_step_(base_step_of(evaluator.input())) {}
@@ -81,7 +74,7 @@ Answer to_answer(const Evaluator& evaluator, const Evaluation& evaluation) {
 
 std::vector<tuning::TuningResult> run_tuning(StudySession& session) {
   const Evaluator& evaluator = session.evaluator();
-  TuningRun run(session);
+  TuningRun run(evaluator, source_of(session));
   std::vector<tuning::TuningResult> results = search_tuning(evaluator, run);
   session.record().set_answer(AnswerKind::tuning, tuning::write_json(results, ""),
                               tuning::make_tables(results));

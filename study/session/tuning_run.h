@@ -3,31 +3,23 @@
 // answers.
 #pragma once
 
-#include <functional>
 #include <vector>
 
-#include "study/session/session.h"
+#include "study/session/evaluation_source.h"
 #include "study/tune/tuning_result.h"
 
 namespace linkstudy {
 
 class TuningRun {
  public:
-  // Where points become evaluations, and where those are then found.
-  struct Source {
-    std::function<void(const std::vector<Point>& points)> evaluate;
-    std::function<const Evaluation&(std::uint64_t id)> find;
-  };
-
-  explicit TuningRun(StudySession& session);
-  TuningRun(const Evaluator& evaluator, Source source);
+  TuningRun(const Evaluator& evaluator, EvaluationSource source);
 
   // Throws as the source does.
   std::vector<tuning::Answer> evaluate(const std::vector<tuning::Request>& requests);
 
  private:
   const Evaluator& evaluator_;
-  Source source_;
+  EvaluationSource source_;
   double base_step_;
   std::uint64_t next_id_ = 0;
 };

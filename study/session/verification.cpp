@@ -16,6 +16,7 @@
 #include "study/metrics/response_list.h"
 #include "study/record/digest.h"
 #include "study/record/version.h"
+#include "study/session/calibration_run.h"
 #include "study/session/identity.h"
 #include "study/session/study_points.h"
 #include "study/session/study_record.h"
@@ -50,12 +51,15 @@ void collect_evaluations(const nlohmann::json& json, std::vector<std::uint64_t>&
   for (const auto& part : json) collect_evaluations(part, ids);
 }
 
-// Of one answer, or of several.
-void collect_certificates(const nlohmann::json& answer, std::vector<std::uint64_t>& ids) {
+// The evaluation of an answer and those of its certificate; of one answer, or of several.
+void collect_needed(const nlohmann::json& answer, std::vector<std::uint64_t>& ids) {
   if (!answer.is_object()) return;
   if (answer.contains("certificate")) collect_evaluations(answer["certificate"], ids);
+  if (answer.contains("evaluation") && answer["evaluation"].is_number_unsigned()) {
+    ids.push_back(answer["evaluation"].get<std::uint64_t>());
+  }
   if (!answer.contains("answers")) return;
-  for (const auto& one : answer["answers"]) collect_certificates(one, ids);
+  for (const auto& one : answer["answers"]) collect_needed(one, ids);
 }
 
 // Responses that studies are about: errors and [[response]].
@@ -92,7 +96,8 @@ class Verifier {
     compare_program();
     const nlohmann::json answer = answer_of(results_);
     std::vector<std::uint64_t> needed;
-    collect_certificates(answer, needed);
+    collect_needed(answer, needed);
+    collect_without_residuals(needed);
     result_.rerun = choose_evaluations(results_, needed, options_);
     run_again();
     if (answer.is_object()) judge_answer(answer);
@@ -100,6 +105,14 @@ class Verifier {
   }
 
  private:
+  // Of a fit; a file of results has them of the best alone.
+  void collect_without_residuals(std::vector<std::uint64_t>& ids) const {
+    if (evaluator_->input().kind != FileKind::calibrate) return;
+    for (const auto& [id, one] : evaluations_) {
+      if (one.status == Cause::ok && one.residuals.empty()) ids.push_back(id);
+    }
+  }
+
   void prepare() {
     Diagnostics diagnostics;
     const std::string file = "the input that these results hold";
@@ -144,8 +157,10 @@ class Verifier {
     for (const std::vector<Point>& pack :
          form_packs(points, evaluator_->parameters(), simd_level().lanes, 1)) {
       for (Evaluation& found : evaluator_->evaluate(pack)) {
-        compare(evaluations_.at(found.point.id), found);
-        evaluations_[found.point.id] = std::move(found);
+        Evaluation& stored = evaluations_.at(found.point.id);
+        compare(stored, found);
+        // Where roundings differ, the stored ones led the search.
+        if (result_.to_the_bit || stored.residuals.empty()) stored = std::move(found);
       }
     }
   }
@@ -164,6 +179,17 @@ class Verifier {
       result_.disagreements.push_back(
           {id, evaluator_->responses()[i].name, shown_number(a), shown_number(b)});
     }
+    if (result_.to_the_bit && !stored.residuals.empty()) compare_residuals(stored, found);
+  }
+
+  // The first that differs says it.
+  void compare_residuals(const Evaluation& stored, const Evaluation& found) {
+    const auto [a, b] = std::ranges::mismatch(stored.residuals, found.residuals);
+    if (a == stored.residuals.end() && b == found.residuals.end()) return;
+    result_.disagreements.push_back({stored.point.id,
+                                     fmt::format("residual {}", a - stored.residuals.begin()),
+                                     a == stored.residuals.end() ? "nothing" : shown_number(*a),
+                                     b == found.residuals.end() ? "nothing" : shown_number(*b)});
   }
 
   bool agrees(double a, double b) const {
@@ -179,14 +205,32 @@ class Verifier {
     std::optional<nlohmann::json> found;
     const FileKind kind = evaluator_->input().kind;
     if (kind == FileKind::tune) found = tune_again();
+    if (kind == FileKind::calibrate) found = calibrate_again();
     if (kind == FileKind::converge) found = converge_again();
     if (!found || result_.refuted || !result_.to_the_bit || *found == stored) return;
     result_.refuted = fmt::format("judged anew the answer is another: {}",
                                   nlohmann::json::diff(stored, *found).front().dump());
   }
 
-  // The search itself, its evaluations at hand.
+  // Searches with their evaluations at hand.
   std::optional<nlohmann::json> tune_again() {
+    return search_again([this](const EvaluationSource& stored) {
+      TuningRun run(*evaluator_, stored);
+      const std::vector<tuning::TuningResult> results = search_tuning(*evaluator_, run);
+      for (const tuning::TuningResult& result : results) check_claims(result);
+      return tuning::write_json(results, "");
+    });
+  }
+
+  std::optional<nlohmann::json> calibrate_again() {
+    return search_again([this](const EvaluationSource& stored) {
+      return calibration::write_json(fit_calibration(*evaluator_, stored), "");
+    });
+  }
+
+  // Nothing where the search asks for what is not stored.
+  template <class Search>
+  std::optional<nlohmann::json> search_again(const Search& search) {
     const auto require_stored = [&](const std::vector<Point>& points) {
       for (const Point& point : points) {
         const auto known = evaluations_.find(point.id);
@@ -197,13 +241,9 @@ class Verifier {
             fmt::format("the search asks for another evaluation {} than is stored", point.id));
       }
     };
-    TuningRun run(*evaluator_, {require_stored, [&](std::uint64_t id) -> const Evaluation& {
-                                  return evaluations_.at(id);
-                                }});
+    const auto find = [&](std::uint64_t id) -> const Evaluation& { return evaluations_.at(id); };
     try {
-      const std::vector<tuning::TuningResult> results = search_tuning(*evaluator_, run);
-      for (const tuning::TuningResult& result : results) check_claims(result);
-      return nlohmann::json::parse(tuning::write_json(results, ""));
+      return nlohmann::json::parse(search({require_stored, find}));
     } catch (const StoreError& error) {
       result_.refuted = error.what();
       return std::nullopt;

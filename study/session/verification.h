@@ -1,10 +1,11 @@
 // Results against the program: evaluations are run again from what the results hold of their input
-// and compared with what is stored, and the answer (a tune's certificate, orders of convergence) is
-// judged anew from those that were run again and the rest as stored.
-// Rerun are: the evaluations that a certificate rests on, the first and the last, one of each cause
-// of failure, those with the least and the greatest of every compared number, and, up to `count`,
-// others drawn by the study's seed. What may end otherwise on a second try (timeout, exception,
-// rank_lost) is left out.
+// and compared with what is stored, and the answer (a certificate, a fit, orders of convergence) is
+// judged anew from those that were run again and the rest as stored: searches are repeated.
+// Rerun are: the evaluations that an answer and its certificate rest on (of a calibration all whose
+// residuals are not stored: a file of results has those of the best alone), the first and the last,
+// one of each cause of failure, those with the least and the greatest of every compared number,
+// and, up to `count`, others drawn by the study's seed. What may end otherwise on a second try
+// (timeout, exception, rank_lost) is left out.
 #pragma once
 
 #include <map>

@@ -99,6 +99,96 @@ TEST_F(Verify, Judges_an_answer_anew_from_all_evaluations) {
   EXPECT_FALSE(found["refuted"].is_null());
 }
 
+const char* const kCalibration = R"(format = 1
+kind = "calibrate"
+model = "model.toml"
+base = { set = { "closure.S.model" = "sde", "closure.S.sde.damping" = "50 N s/m" } }
+
+[[parameter]]
+path = "closure.S.sde.stiffness"
+range = { log = [1.0e4, 1.0e6] }
+
+[[experiment]]
+name = "on"
+file = "force.csv"
+columns = { time = "t", "closure.S.force.x" = "Fx [mN]" }
+
+[[experiment]]
+name = "off"
+file = "force.csv"
+columns = { time = "t", "closure.S.force.y" = "Fy [N]" }
+
+[fit]
+starts = 2
+)";
+// Nobody's own, and not those of any stiffness: the fit has something to do.
+const char* const kForce =
+    "t,Fx [mN],Fy [N]\n0.05,-1900,31\n0.08,-2400,34\n0.1,,36\n0.11,-2100,35\n0.15,-1000,32\n";
+
+class VerifyCalibration : public Verify {
+ protected:
+  VerifyCalibration() {
+    write("calibrate.toml", kCalibration);
+    write("force.csv", kForce);
+    EXPECT_EQ(run("calibrate calibrate.toml -o out").code, 0);
+    for (const char* file : {"calibrate.toml", "model.toml", "force.csv"}) {
+      std::filesystem::remove(path(file));
+    }
+  }
+
+  // The stored answer, edited as a text.
+  void change_answer(const std::function<void(json&)>& edit) const {
+    const JournalContents contents = read_journal(path("out"));
+    const auto found = std::ranges::find_if(
+        contents.texts, [](const NamedText& one) { return one.name.starts_with("calibration/"); });
+    ASSERT_NE(found, contents.texts.end());
+    json answer = json::parse(found->text);
+    edit(answer);
+    Journal journal(path("out"), contents.input_sha256, OpenMode::resume);
+    journal.append(NamedText{found->name, answer.dump()});
+    journal.sync();
+  }
+};
+
+TEST_F(VerifyCalibration, Repeats_the_fit_without_the_files_of_its_data) {
+  const json held = verified("out --count 1", 0);
+  EXPECT_EQ(held["status"], "verified");
+  EXPECT_THAT(held["answer"], ::testing::AnyOf("fitted", "ambiguous"));
+  EXPECT_LT(held["rerun"].size(), held["stored"].get<std::size_t>());
+  // A file of results has the residuals of the best alone: all others are run again.
+  const json whole = verified("out/results.h5 --count 1", 0);
+  EXPECT_EQ(whole["rerun"].size(), whole["stored"].get<std::size_t>());
+  EXPECT_EQ(whole["answer"], held["answer"]);
+}
+
+TEST_F(VerifyCalibration, Refutes_an_estimate_that_the_fit_does_not_find) {
+  change_answer([](json& answer) {
+    json& value = answer["parameters"]["closure.S.sde.stiffness"]["value"];
+    value = 1.001 * value.get<double>();
+  });
+  const json found = verified("out --count 1", 4);
+  EXPECT_TRUE(found["disagreements"].empty());
+  EXPECT_THAT(found["refuted"].get<std::string>(), HasSubstr("closure.S.sde.stiffness/value"));
+}
+
+TEST_F(VerifyCalibration, Finds_a_residual_that_was_changed_by_its_last_bit) {
+  const JournalContents contents = read_journal(path("out"));
+  const auto found = std::ranges::find(contents.traces, "residuals_3", &TraceSet::name);
+  ASSERT_NE(found, contents.traces.end());
+  {
+    TraceSet changed = *found;
+    double& value = changed.traces.front().values.at(2);
+    value = std::nextafter(value, 1e9);
+    Journal journal(path("out"), contents.input_sha256, OpenMode::resume);
+    journal.append(changed);
+    journal.sync();
+  }
+  const json all = verified("out --all", 4);
+  ASSERT_EQ(all["disagreements"].size(), 1U);
+  EXPECT_EQ(all["disagreements"][0]["evaluation"], 3);
+  EXPECT_EQ(all["disagreements"][0]["column"], "residual 2");
+}
+
 TEST_F(Verify, Says_what_it_cannot_do) {
   EXPECT_EQ(run("verify nowhere").code, 2);
   EXPECT_EQ(run("verify nowhere --count 0").code, 2);
