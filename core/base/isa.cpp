@@ -26,12 +26,8 @@ InstructionSet wanted(const std::string& name) {
 
 bool machine_has(InstructionSet isa) {
 #if defined(__x86_64__)
-  if (isa == InstructionSet::avx512) {
-    return __builtin_cpu_supports("x86-64-v4") > 0;
-  }
-  if (isa == InstructionSet::avx2) {
-    return __builtin_cpu_supports("x86-64-v3") > 0;
-  }
+  if (isa == InstructionSet::avx512) return __builtin_cpu_supports("x86-64-v4") > 0;
+  if (isa == InstructionSet::avx2) return __builtin_cpu_supports("x86-64-v3") > 0;
   return true;
 #else
   return isa == InstructionSet::baseline;

@@ -23,9 +23,7 @@ inline Wrench<Real> inertial_wrench(const Body& body, const BodyState<Real>& s) 
     w.force = w.force + cross(s.omega, cross(s.omega, i.h));
     if (body.gyrates) w.force = w.force + cross(s.alpha, i.h);
   }
-  if (body.inertia != InertiaShape::isotropic) {
-    w.moment = w.moment + cross(s.omega, i.i * s.omega);
-  }
+  if (body.inertia != InertiaShape::isotropic) w.moment = w.moment + cross(s.omega, i.i * s.omega);
   if (body.gyrates) w.moment = w.moment + i.i * s.alpha;
   return w;
 }

@@ -215,9 +215,8 @@ template <class Real>
   const int rows = static_cast<int>(m.loop_rows.size());
   const auto rank_of = [&](int i) { return static_cast<int>(lane(w.kept_rows, i)); };
   s.redundant = 0;
-  for (int i = 0; i < RealTraits<Real>::lanes; ++i) {
+  for (int i = 0; i < RealTraits<Real>::lanes; ++i)
     if (rank_of(i) < rows) s.redundant |= 1u << i;
-  }
   if (s.redundant == 0) return;
   const Real longest = update_loop_lengths(m, w, s);
   update_loop_rows(m, p, w, s);

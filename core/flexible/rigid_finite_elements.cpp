@@ -94,9 +94,8 @@ class Expansion {
         if (end->link == name_) end->link = element_of(end->frame.position);
       }
     }
-    for (Load& load : to_.loads) {
+    for (Load& load : to_.loads)
       if (load.link == name_) load.link = element_of(load.point);
-    }
     for (ChosenPoint& point : to_.points) {
       if (point.link == name_) point.link = element_of(point.position);
     }
@@ -137,9 +136,8 @@ class Expansion {
 
 Linkage expand_flexible_links(const Linkage& linkage) {
   Linkage expanded = linkage;
-  for (const Link& link : linkage.links) {
+  for (const Link& link : linkage.links)
     if (link.flexible) Expansion(link, expanded).run();
-  }
   return expanded;
 }
 

@@ -231,9 +231,7 @@ DrivenRates DrivenLinkage::rates(const State<double>& given, const VectorXd& rat
   r.quality = svd.singularValues()[rank_ - 1] / size_;
   r.is_singular = r.quality < kSingularQuality;
   r.first += scatter_entries(solve_within(svd, rank_, -j * r.first), dependent_, nv);
-  for (int k = 0; k < nv; ++k) {
-    s.v[static_cast<std::size_t>(k)] = scale_.velocity[k] * r.first[k];
-  }
+  for (int k = 0; k < nv; ++k) s.v[static_cast<std::size_t>(k)] = scale_.velocity[k] * r.first[k];
   const VectorXd bias = compute_scaled_closures(*closed_, scale_, s).bias;
   r.second += scatter_entries(solve_within(svd, rank_, -bias - j * r.second), dependent_, nv);
   if (undetermined() > 0) r.second += turning_of_least_norm(s, j, svd, r.first);

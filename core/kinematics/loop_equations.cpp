@@ -39,9 +39,8 @@ Elements elements_of(const Matrix3d& common, const ClosureFrame& a, const Closur
 
 std::vector<int> elements_in(unsigned choice) {
   std::vector<int> elements;
-  for (int i = 0; i < kElements; ++i) {
+  for (int i = 0; i < kElements; ++i)
     if (choice >> i & 1u) elements.push_back(i);
-  }
   return elements;
 }
 

@@ -103,9 +103,8 @@ const State<double>& regular_pose(const Model& closed, const ClosureScale& scale
                                   const State<double>& pose, const MobilityReport& r) {
   if (r.rank.rank == r.regular_rank) return pose;
   const Explorer explorer(closed, scale);
-  for (const State<double>& s : r.neighbours) {
+  for (const State<double>& s : r.neighbours)
     if (explorer.rank(s) == r.regular_rank) return s;
-  }
   return pose;
 }
 

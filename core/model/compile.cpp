@@ -355,9 +355,7 @@ class Compiler {
     Mechanism& m = mechanism();
     std::vector<int> support;
     for (int last : {c.last_1, c.last_2}) {
-      for (int k = last; k >= 0; k = m.v_parent[static_cast<std::size_t>(k)]) {
-        support.push_back(k);
-      }
+      for (int k = last; k >= 0; k = m.v_parent[static_cast<std::size_t>(k)]) support.push_back(k);
     }
     std::sort(support.begin(), support.end(), std::greater<>());
     support.erase(std::unique(support.begin(), support.end()), support.end());

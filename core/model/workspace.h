@@ -256,9 +256,7 @@ Workspace<Real> make_workspace(const Mechanism& m) {
   w.row_inverse.assign(nc, Real(1.0));
   w.row_scale.assign(nc, Real(1.0));
   w.velocity_scale.assign(nv, Real(1.0));
-  for (RedundantSystem& s : w.redundant_systems) {
-    s = RedundantSystem(m.cut_row_count(), m.nv);
-  }
+  for (RedundantSystem& s : w.redundant_systems) s = RedundantSystem(m.cut_row_count(), m.nv);
   if (!m.frictions.empty()) w.shared = make_shared_reactions<Real>(m);
   return w;
 }

@@ -188,9 +188,8 @@ bool is_in_group(const std::string& channel, const std::string& group) {
 std::vector<Channel> find_channel_group(const std::vector<Channel>& all, const std::string& group) {
   std::vector<Channel> found = find_channels(all, group);
   if (!found.empty() || group.empty()) return found;
-  for (const Channel& c : all) {
+  for (const Channel& c : all)
     if (is_in_group(c.name, group)) found.push_back(c);
-  }
   return found;
 }
 

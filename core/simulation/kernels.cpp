@@ -29,13 +29,11 @@ void add_kernels(std::span<const Kernel> kernels) {
 const Kernel& find_kernel(const Mechanism& mechanism, InstructionSet isa, int lanes, bool general) {
   const auto fits = [&](const Kernel& k) { return k.isa == isa && k.lanes == lanes; };
   if (!general) {
-    for (const Kernel& k : added_kernels()) {
+    for (const Kernel& k : added_kernels())
       if (fits(k) && k.serves(mechanism)) return k;
-    }
   }
-  for (const Kernel& k : general_kernels(isa)) {
+  for (const Kernel& k : general_kernels(isa))
     if (fits(k)) return k;
-  }
   throw std::logic_error("no step loop for this instruction set and number of lanes");
 }
 

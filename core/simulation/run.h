@@ -127,15 +127,13 @@ class Run {
   }
 
   void end_lanes(unsigned ending, Cause cause) {
-    for (int i = 0; ending != 0; ++i, ending >>= 1) {
+    for (int i = 0; ending != 0; ++i, ending >>= 1)
       if ((ending & 1u) != 0) end_lane(i, cause);
-    }
   }
 
   void abandon_lanes(unsigned ending) {
-    for (int i = 0; i < count_; ++i) {
+    for (int i = 0; i < count_; ++i)
       if ((ending >> i & 1u) != 0) cases_[i].end->abandoned = true;
-    }
     end_lanes(ending, Cause::ok);
   }
 
@@ -154,9 +152,8 @@ class Run {
   }
 
   void reset_idle_lanes() {
-    for (int i = 0; i < lanes; ++i) {
+    for (int i = 0; i < lanes; ++i)
       if ((active_ >> i & 1u) == 0) reset(i);
-    }
   }
 
   void reset(int i) {

@@ -10,9 +10,8 @@ using Eigen::Vector3d;
 using Eigen::Vector4d;
 
 Vector4d with_sign(const Vector4d& e) {
-  for (const double part : e) {
+  for (const double part : e)
     if (part != 0.0) return part > 0.0 ? e : Vector4d(-e);
-  }
   return e;
 }
 

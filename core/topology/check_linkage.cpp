@@ -90,9 +90,8 @@ class Checker {
   }
 
   const Joint* find_joint(const std::string& name) const {
-    for (const Joint& joint : linkage_.joints) {
+    for (const Joint& joint : linkage_.joints)
       if (joint.name == name) return &joint;
-    }
     return nullptr;
   }
 

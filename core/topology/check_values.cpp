@@ -165,9 +165,7 @@ std::string rotation_fault(const Eigen::Matrix3d& rotation) {
   if (off > kRotationTolerance) {
     return "must be orthonormal to 1e-6, got an error of " + text_of(off);
   }
-  if (rotation.determinant() < 0.0) {
-    return "must be a rotation, got a reflection (determinant -1)";
-  }
+  if (rotation.determinant() < 0.0) return "must be a rotation, got a reflection (determinant -1)";
   return {};
 }
 

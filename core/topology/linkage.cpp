@@ -57,9 +57,8 @@ unsigned shut_directions(const Closure& closure) {
   const Sde& sde = closure.sde;
   if (sde.start == SdeStart::given) return 0;
   unsigned stiff = 0;
-  for (unsigned d = 0; d < kDirections; ++d) {
+  for (unsigned d = 0; d < kDirections; ++d)
     if (sde.stiffness[d] > 0.0) stiff |= 1u << d;
-  }
   constexpr unsigned translations = 1u << kX | 1u << kY | 1u << kZ;
   if (sde.form == SdeForm::line_of_centres && (stiff & 1u << kX)) stiff |= translations;
   return stiff & blocked_directions(closure.type);

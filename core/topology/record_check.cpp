@@ -23,9 +23,8 @@ std::string text_of(const Eigen::Vector3d& value) {
 }
 
 bool all_finite(const std::vector<double>& values) {
-  for (const double value : values) {
+  for (const double value : values)
     if (!std::isfinite(value)) return false;
-  }
   return true;
 }
 

@@ -70,9 +70,8 @@ std::vector<Value> calibration_point(const StudyInput& input, const std::vector<
 
 std::vector<double> first_fitted(const StudyInput& input) {
   std::vector<double> fitted;
-  for (const CalibratedInput& one : input.calibrated) {
+  for (const CalibratedInput& one : input.calibrated)
     if (is_free(one)) fitted.push_back(one.low);
-  }
   for (const LoadCaseInput& one : input.load_case) {
     if (one.measured && one.measured->fits_offset) fitted.push_back(0.0);
   }

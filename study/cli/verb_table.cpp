@@ -128,9 +128,8 @@ const std::vector<VerbRow>& verb_rows() {
 }
 
 const VerbRow& find_verb(const std::string& name) {
-  for (const VerbRow& verb : verb_rows()) {
+  for (const VerbRow& verb : verb_rows())
     if (name == verb.name) return verb;
-  }
   if (std::ranges::find(kPlanned, name) != kPlanned.end()) {
     throw UsageError(fmt::format("'{}' is not supported in this version; verbs: {}", name,
                                  fmt::join(verb_names(), ", ")));

@@ -20,9 +20,8 @@ class CalibratedReader {
       : document_(document), input_(input), diagnostics_(diagnostics) {}
 
   WrittenValues run(Tree& list) {
-    for (Tree& entry : list.items) {
+    for (Tree& entry : list.items)
       if (entry.is(Kind::table)) read_entry(entry);
-    }
     for (const PendingTie& tie : ties_) settle(tie);
     const auto is_free = [](const CalibratedInput& one) { return one.role == ParameterRole::free; };
     if (diagnostics_.empty() && std::ranges::none_of(input_.calibrated, is_free)) {

@@ -309,9 +309,8 @@ class Fields {
   template <class E, std::size_t n>
   static void add_words(KeyRow& row, const std::array<Word<E>, n>& words) {
     std::vector<WordMeaning> meanings;
-    if (row.words.empty()) {
+    if (row.words.empty())
       for (const Word<E>& word : words) row.words.emplace_back(word.text);
-    }
     for (const std::string& text : row.words) {
       const auto word = std::ranges::find(words, text, &Word<E>::text);
       if (!word->meaning.empty()) meanings.push_back({word->text, word->meaning});

@@ -18,9 +18,8 @@ Tree parse_default(const KeyRow& row) {
 }
 
 KeyNode& descend(KeyNode& node, const std::string& name) {
-  for (KeyNode& child : node.children) {
+  for (KeyNode& child : node.children)
     if (child.name == name) return child;
-  }
   node.children.push_back({.name = name, .row = {}, .standard = {}, .children = {}});
   node.children.back().row.type = KeyType::table;
   return node.children.back();
@@ -49,9 +48,8 @@ bool Range::is_everything() const {
 }
 
 const KeyNode* KeyNode::find(std::string_view key) const {
-  for (const KeyNode& child : children) {
+  for (const KeyNode& child : children)
     if (child.name == key) return &child;
-  }
   return nullptr;
 }
 

@@ -59,9 +59,8 @@ std::vector<CsvCell> split_line(std::string_view line, char separator) {
 }
 
 char find_separator(std::string_view heads) {
-  for (const char one : {'\t', ';'}) {
+  for (const char one : {'\t', ';'})
     if (heads.find(one) != std::string_view::npos) return one;
-  }
   return ',';
 }
 

@@ -119,9 +119,7 @@ std::optional<ModelInput> read_model_file(const ModelDocument& document,
   const Tree& tree = edited->tree();
   for (const Override& one : set) {
     const auto found = find_ineffective(tree, model_schema(), one.path, verb);
-    if (found) {
-      diagnostics.remark(Severity::warning, one.origin, found->message(), found->remedy);
-    }
+    if (found) diagnostics.remark(Severity::warning, one.origin, found->message(), found->remedy);
   }
   for (const Ineffective& one : find_ineffective(tree, model_schema(), verb)) {
     if (one.stands_by || one.at.line == 0) continue;

@@ -26,9 +26,7 @@ Matrix3d without_dust(const Matrix3d& rotation) {
 
 // Newton's iteration for the nearest rotation; it leaves an exact rotation as it is.
 Matrix3d orthonormalised(Matrix3d r) {
-  for (int i = 0; i < 3; ++i) {
-    r = 0.5 * r * (3.0 * Matrix3d::Identity() - r.transpose() * r);
-  }
+  for (int i = 0; i < 3; ++i) r = 0.5 * r * (3.0 * Matrix3d::Identity() - r.transpose() * r);
   return r;
 }
 

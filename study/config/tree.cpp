@@ -27,9 +27,8 @@ bool equal_tables(const Tree& a, const Tree& b) {
 }  // namespace
 
 const Tree* Tree::find(std::string_view key) const {
-  for (std::size_t i = 0; i < keys.size(); ++i) {
+  for (std::size_t i = 0; i < keys.size(); ++i)
     if (keys[i].name == key) return &items[i];
-  }
   return nullptr;
 }
 
@@ -38,9 +37,8 @@ Tree* Tree::find(std::string_view key) {
 }
 
 const Tree::Key* Tree::find_key(std::string_view key) const {
-  for (const Key& candidate : keys) {
+  for (const Key& candidate : keys)
     if (candidate.name == key) return &candidate;
-  }
   return nullptr;
 }
 

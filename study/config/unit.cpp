@@ -57,9 +57,8 @@ class UnitParser {
 
   // At most one mark; two factors side by side are a product as well.
   void accept_product() {
-    for (const std::string_view mark : {"*", ".", "\u00B7", "\u22C5"}) {
+    for (const std::string_view mark : {"*", ".", "\u00B7", "\u22C5"})
       if (accept(mark)) return;
-    }
     if (is_hyphen(at_)) ++at_;
   }
 

@@ -144,9 +144,8 @@ std::span<const UnitPrefix> unit_prefixes() {
 }
 
 std::optional<Unit> find_unit_symbol(std::string_view name) {
-  for (const UnitSymbol& symbol : kSymbols) {
+  for (const UnitSymbol& symbol : kSymbols)
     if (symbol.name == name) return symbol.unit;
-  }
   for (const UnitPrefix& prefix : kPrefixes) {
     if (!name.starts_with(prefix.name)) continue;
     for (const UnitSymbol& symbol : kSymbols) {

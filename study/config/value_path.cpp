@@ -92,9 +92,8 @@ std::optional<std::size_t> find_element_index(const Tree& list, const std::strin
 std::optional<ValuePath> find_value_path(const Tree& document, const KeyNode& schema,
                                          const std::string& path) {
   Finder finder(document, schema);
-  for (const std::string& part : split_path(path)) {
+  for (const std::string& part : split_path(path))
     if (!finder.step(part)) return std::nullopt;
-  }
   return std::move(finder).path();
 }
 

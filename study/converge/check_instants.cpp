@@ -84,9 +84,8 @@ void check_common_instants(const Evaluator& evaluator, const std::vector<Point>&
     }
   }
   for (const SeriesInput& series : input.series) {
-    for (const KeptInstants& kept : all) {
+    for (const KeptInstants& kept : all)
       if (!check_series(series, kept, diagnostics)) break;
-    }
   }
 }
 

@@ -168,9 +168,8 @@ class Judge {
 
   // The finest level above the floor; 0 where there is none with two coarser ones.
   std::size_t finest_triple() {
-    for (std::size_t k = used_.size(); k-- > 2;) {
+    for (std::size_t k = used_.size(); k-- > 2;)
       if (row(k).behaviour != Behaviour::floor) return k;
-    }
     return 0;
   }
 

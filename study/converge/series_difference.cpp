@@ -78,9 +78,8 @@ std::optional<SeriesLadder> make_series_ladder(const std::vector<double>& h,
                                                const std::optional<TimeWindow>& window,
                                                const std::optional<History>& reference) {
   std::vector<std::span<const double>> times;
-  for (const History& history : histories) {
+  for (const History& history : histories)
     if (!history.time.empty()) times.push_back(history.time);
-  }
   const std::vector<double> instants = find_common_instants(times, window);
   if (instants.size() < 2) return std::nullopt;
   SeriesLadder result;

@@ -286,9 +286,7 @@ MeasuredRun Evaluator::measured_run(std::size_t load_case, const Point& point) {
 const ReferenceRecord& Evaluator::run_reference(std::size_t load_case) {
   const std::lock_guard lock(mutex_);
   std::optional<ReferenceRecord>& record = references_.at(load_case);
-  if (!record) {
-    record = linkstudy::run_reference(input_, load_cases_[load_case], limits_of(0.0));
-  }
+  if (!record) record = linkstudy::run_reference(input_, load_cases_[load_case], limits_of(0.0));
   return *record;
 }
 
@@ -361,9 +359,8 @@ std::vector<Evaluation> Evaluator::evaluate(std::span<const Point> points) {
 void Evaluator::attempt(std::span<Attempt> attempts) {
   for (std::size_t i = 0; i < load_cases_.size(); ++i) {
     std::vector<Attempt*> running;
-    for (Attempt& one : attempts) {
+    for (Attempt& one : attempts)
       if (one.is_running()) running.push_back(&one);
-    }
     const auto cases = prepare_cases(i, attempts);
     for (const CaseGroup& group : group_cases(cases)) run_group(i, group, attempts);
     for (Attempt* one : running) name_load_case(load_cases_[i], one->result);

@@ -21,7 +21,8 @@ ModelInput read_reference(const StudyInput& input, const LoadCaseInput& load_cas
 std::string title_of(const LoadCaseInput& load_case) {
   return load_case.name.empty()
              ? "the reference run"
-             : fmt::format("the reference run of load case '{}'", load_case.name);
+             : fmt::format("the reference run of {} '{}'",
+                           load_case.measured ? "experiment" : "load case", load_case.name);
 }
 
 [[noreturn]] void fail(const LoadCaseInput& load_case, Cause cause, const std::string& message) {

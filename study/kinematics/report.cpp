@@ -42,9 +42,7 @@ int idle_count(const MobilityReport& r) {
 // What the numbers mean for the designer.
 std::string verdict(const KinematicsResult& result) {
   const MobilityReport& r = result.mobility;
-  if (!result.assembly.closed) {
-    return "cannot be assembled: " + open_text(result.assembly);
-  }
+  if (!result.assembly.closed) return "cannot be assembled: " + open_text(result.assembly);
   if (r.mobility == 0 && r.instantaneous_mobility > 0) {
     return "a structure that gives way slightly: joints can start to move but not go on";
   }
@@ -163,9 +161,7 @@ std::string notes_text(const DrivenLinkage& driven, bool is_complete) {
   if (driven.releases_holds()) {
     text += summary_line("note", "hold = true is left aside: the drives could not move");
   }
-  if (driven.is_overdriven()) {
-    text += summary_line("note", overdriven_text(driven, is_complete));
-  }
+  if (driven.is_overdriven()) text += summary_line("note", overdriven_text(driven, is_complete));
   if (driven.undetermined() > 0) {
     text += summary_line("note",
                          fmt::format("{} not determined by the drives: least motion taken",

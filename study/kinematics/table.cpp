@@ -114,9 +114,7 @@ class TableBuilder {
     for (const PointMotion& point : point_motions(mechanism(), closed_.parameters, pose.s.q.data(),
                                                   pose.s.v.data(), pose.a.data())) {
       const auto add = [&](const Vec3<double>& a, bool is_rate) {
-        for (const double x : {a.x, a.y, a.z}) {
-          cells.push_back(is_rate ? rate(pose, x) : x);
-        }
+        for (const double x : {a.x, a.y, a.z}) cells.push_back(is_rate ? rate(pose, x) : x);
       };
       add(point.position, false);
       add(point.velocity, true);

@@ -62,9 +62,8 @@ class Layouts {
     const std::vector<int> tried = list_ranks();
     double best = most(tried.front()).wall_s;
     for (const int ranks : tried) best = std::min(best, most(ranks).wall_s);
-    for (const int ranks : tried) {
+    for (const int ranks : tried)
       if (most(ranks).wall_s <= best * kNoShorter) return ranks;
-    }
     return tried.back();
   }
 

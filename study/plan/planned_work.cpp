@@ -1,12 +1,13 @@
 #include "study/plan/planned_work.h"
 
 #include <algorithm>
+#include <exception>
 #include <set>
 
 #include "study/calibrate/fit_setup.h"
 #include "study/calibrate/starts.h"
 #include "study/session/study_points.h"
-#include "study/tune/scan_box.h"
+#include "study/tune/tune.h"
 #include "study/tune/tuning_setup.h"
 
 namespace linkstudy::plan {
@@ -20,31 +21,45 @@ PlannedWork plan_design(const Evaluator& evaluator) {
   return work;
 }
 
-std::vector<std::vector<double>> scan_of(const tuning::TuningProblem& problem, std::size_t scan) {
-  if (problem.variables.size() > 1) return tuning::make_box_scan(problem, scan);
-  std::vector<std::vector<double>> points;
-  for (const double value : tuning::make_scan_values(problem.variables.front(), scan)) {
-    points.push_back({value});
+// What comes after the scan depends on its answers.
+class ScanEnded : public std::exception {};
+
+// The values that a search asks for before it has seen any answer.
+std::vector<std::vector<double>> scan_of(const tuning::TuningTarget& target,
+                                         const tuning::TuningOptions& options) {
+  std::vector<std::vector<double>> scan;
+  const auto note = [&](const std::vector<tuning::Request>& requests) {
+    std::vector<tuning::Answer> answers;
+    for (const tuning::Request& request : requests) {
+      if (request.purpose != "scan") throw ScanEnded();
+      answers.push_back({scan.size(), Cause::cancelled, {}, {}});
+      scan.push_back(request.x);
+    }
+    return answers;
+  };
+  try {
+    tuning::tune(target.problem, options, note);
+  } catch (const ScanEnded&) {
+    // It has been noted.
   }
-  return points;
+  return scan;
 }
 
 PlannedWork plan_tune(const Evaluator& evaluator) {
   const StudyInput& input = evaluator.input();
-  const double step = base_step_of(input);
   PlannedWork work;
   work.certain_are = "the scan";
   work.most = most_tuning_evaluations(input);
   work.batch = input.search.batch;
-  std::set<double> factors;  // every step has a scan of its own, tolerances share it
+  std::set<double> steps;
   for (const tuning::TuningTarget& target : make_tuning_targets(evaluator)) {
-    if (!factors.insert(target.step_factor).second) continue;
-    for (const auto& values : scan_of(target.problem, input.search.scan)) {
-      if (work.points.size() == work.most) break;
+    const double step = base_step_of(input) * target.step_factor;
+    if (!steps.insert(step).second) continue;  // its scan is known then
+    for (const std::vector<double>& values : scan_of(target, make_tuning_options(input))) {
       Point& point = work.points.emplace_back();
       point.id = work.points.size() - 1;
       point.values.assign(values.begin(), values.end());
-      point.values.emplace_back(step * target.step_factor);
+      point.values.emplace_back(step);
     }
   }
   return work;

@@ -7,8 +7,8 @@
 namespace linkstudy::plan {
 
 struct PlannedWork {
-  // A design in whole; of a tune the scan, of a calibration the starts: what comes after depends on
-  // what they find.
+  // A design in whole; of a tune the scan at every step asked for, of a calibration the starts:
+  // what comes after depends on what they find.
   std::vector<Point> points;
   std::uint64_t most = 0;  // evaluations
   // Points that are asked for together: the next are asked for when these have answers. Those of a

@@ -23,7 +23,7 @@ double cpu_seconds() {
 ModelInput reference_model(const StudyInput& input, const LoadCaseInput& load_case) {
   Diagnostics diagnostics;
   std::optional<ModelInput> model =
-      reference_of(input, load_case)
+      reference_run_of(input, load_case)
           ->model->with(reference_overrides(reference_view(input, load_case), load_case),
                         diagnostics);
   throw_if_any(diagnostics);

@@ -67,7 +67,7 @@ ReferenceSizes reference_sizes(const Evaluator& study, std::size_t load_case) {
   const StudyInput view = reference_view(study.input(), one);
   Diagnostics diagnostics;
   const auto model =
-      reference_of(view, one)->model->with(reference_overrides(view, one), diagnostics);
+      reference_run_of(view, one)->model->with(reference_overrides(view, one), diagnostics);
   throw_if_any(diagnostics);
   const StudySignals signals =
       find_reference_signals(view, list_channels(compile(model->linkage).mechanism), diagnostics);

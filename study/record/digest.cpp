@@ -39,9 +39,7 @@ void put_responses(ByteWriter& out, const Evaluation& evaluation, std::size_t co
                                             evaluation.point.id, evaluation.responses.size(),
                                             count));
   }
-  for (double value : evaluation.responses) {
-    put_number(out, value);
-  }
+  for (double value : evaluation.responses) put_number(out, value);
   for (std::size_t i = evaluation.responses.size(); i < count; ++i) {
     put_number(out, std::numeric_limits<double>::quiet_NaN());
   }
@@ -49,9 +47,7 @@ void put_responses(ByteWriter& out, const Evaluation& evaluation, std::size_t co
 
 void put_evaluation(ByteWriter& out, const Evaluation& evaluation, std::size_t response_count) {
   out(kEvaluation, evaluation.point.id, std::uint64_t{evaluation.point.values.size()});
-  for (const Value& value : evaluation.point.values) {
-    put_value(out, value);
-  }
+  for (const Value& value : evaluation.point.values) put_value(out, value);
   out.as<std::uint8_t>(evaluation.status);
   put_responses(out, evaluation, response_count);
   out(evaluation.parent, evaluation.message);
@@ -75,12 +71,8 @@ std::string results_digest(const std::vector<Parameter>& parameters,
   ByteWriter out;
   out(std::string_view("linkstudy results 1"), std::uint64_t{parameters.size()},
       std::uint64_t{responses.size()});
-  for (const Parameter& parameter : parameters) {
-    out(kParameter, parameter.path, parameter.unit);
-  }
-  for (const Response& response : responses) {
-    out(kResponse, response.name, response.unit);
-  }
+  for (const Parameter& parameter : parameters) out(kParameter, parameter.path, parameter.unit);
+  for (const Response& response : responses) out(kResponse, response.name, response.unit);
   Sha256 hash;
   hash.update(out.bytes());
   for (const Evaluation& evaluation : latest_by_id(evaluations)) {

@@ -10,9 +10,7 @@ namespace linkstudy {
 namespace {
 
 void check(int success) {
-  if (success != 1) {
-    throw std::runtime_error("OpenSSL cannot compute SHA-256");
-  }
+  if (success != 1) throw std::runtime_error("OpenSSL cannot compute SHA-256");
 }
 
 }  // namespace

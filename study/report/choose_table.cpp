@@ -79,9 +79,8 @@ double read_number(const Column& column, const std::string& text) {
   if (written->unit.empty() || written->unit == column.unit) return written->value;
   const std::optional<Unit> from = parse_unit(written->unit);
   const std::optional<Unit> to = parse_unit(column.unit);
-  if (from && to) {
+  if (from && to)
     if (const auto value = convert_unit(written->value, *from, *to)) return *value;
-  }
   throw UsageError(fmt::format("'{}' does not fit column '{}', which is in {}", text, column.name,
                                column.unit.empty() ? "pure numbers" : "'" + column.unit + "'"));
 }

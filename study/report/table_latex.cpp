@@ -108,9 +108,8 @@ std::vector<std::optional<Digits>> numbers_of(const Column& column) {
     digits = in_powers_of_ten(*digits);
     decimals = std::max(decimals, digits->fraction.size());
   }
-  for (std::optional<Digits>& digits : numbers) {
+  for (std::optional<Digits>& digits : numbers)
     if (digits) digits->fraction.resize(decimals, '0');
-  }
   return numbers;
 }
 

@@ -67,9 +67,8 @@ void wrap_heads(TextColumns& columns, std::size_t width) {
   };
   while (width_of(columns) > width) {
     std::size_t widest = 0;
-    for (std::size_t i = 1; i < columns.size(); ++i) {
+    for (std::size_t i = 1; i < columns.size(); ++i)
       if (excess(i) > excess(widest)) widest = i;
-    }
     if (excess(widest) == 0) return;
     --limits[widest];
     columns[widest].head = wrapped(names[widest], limits[widest]);
@@ -140,9 +139,7 @@ void leave_out(TextColumns& columns, std::size_t width) {
 // A line for each column.
 std::string upright(const TextColumns& columns) {
   std::size_t width = 0;
-  for (const TextColumn& column : columns) {
-    width = std::max(width, text_width(column.head.front()));
-  }
+  for (const TextColumn& column : columns) width = std::max(width, text_width(column.head.front()));
   std::string text;
   for (const TextColumn& column : columns) {
     const std::string padding(width - text_width(column.head.front()), ' ');

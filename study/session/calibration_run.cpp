@@ -75,9 +75,7 @@ FitReport fit_calibration(Evaluator& evaluator, const EvaluationSource& source) 
   FitReport report;
   report.fit = calibration::calibrate(make_fit_problem(evaluator), make_fit_options(input),
                                       [&](const auto& points) { return run.evaluate(points); });
-  if (!report.fit.estimates.empty()) {
-    add_others(input, source.find(report.fit.evaluation), report);
-  }
+  if (!report.fit.estimates.empty()) add_others(input, source.find(report.fit.evaluation), report);
   add_data(evaluator, report);
   return report;
 }

@@ -121,9 +121,7 @@ void StudySession::run_packs(const std::vector<std::vector<Point>>& packs) {
 
 void StudySession::end_run(const RunOutcome& outcome) {
   abandoned_ = outcome.end == RunEnd::abandoned || outcome.end == RunEnd::no_rank;
-  if (outcome.end == RunEnd::no_rank) {
-    print_err("linkstudy: error: no rank is left that works\n");
-  }
+  if (outcome.end == RunEnd::no_rank) print_err("linkstudy: error: no rank is left that works\n");
   if (outcome.interrupted() || has_cancelled_) {
     log_.warn("interrupted: {}", outcome.end == RunEnd::no_rank       ? "no rank is left"
                                  : outcome.reason == RunEnd::deadline ? "wall time"

@@ -59,9 +59,7 @@ void prepare_directory(const fs::path& directory, bool fresh) {
           fmt::format("{}: is a file; choose a directory with -o", directory.string()));
     }
     fs::create_directories(directory);
-    if (!fs::exists(directory / kJournalName)) {
-      require_ours(directory);
-    }
+    if (!fs::exists(directory / kJournalName)) require_ours(directory);
     if (!fresh && !has_header(directory / kJournalName)) require_no_results(directory);
   } catch (const fs::filesystem_error& error) {
     throw StoreError(fmt::format("{}: cannot use this directory: {}; choose another with -o",

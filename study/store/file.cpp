@@ -33,9 +33,7 @@ constexpr mode_t kMode = 0666;  // less the user's umask
 template <class Call>
 auto retried(Call call) {
   auto result = call();
-  while (result < 0 && errno == EINTR) {
-    result = call();
-  }
+  while (result < 0 && errno == EINTR) result = call();
   return result;
 }
 
@@ -51,9 +49,7 @@ struct flock whole_file(short type) {
 File::File(std::filesystem::path path, int flags)
     : path_(std::move(path)),
       descriptor_(retried([&] { return ::open(path_.c_str(), flags | O_CLOEXEC, kMode); })) {
-  if (descriptor_ < 0) {
-    fail("open");
-  }
+  if (descriptor_ < 0) fail("open");
 }
 
 File::File(File&& other) noexcept
@@ -66,9 +62,7 @@ File& File::operator=(File&& other) noexcept {
 }
 
 File::~File() {
-  if (descriptor_ >= 0) {
-    ::close(descriptor_);
-  }
+  if (descriptor_ >= 0) ::close(descriptor_);
 }
 
 void File::fail(std::string_view doing) const {
@@ -79,43 +73,29 @@ void File::write_all(std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t written =
         retried([&] { return ::write(descriptor_, bytes.data(), bytes.size()); });
-    if (written < 0) {
-      fail("write");
-    }
-    if (written == 0) {
-      fail_at(path_, "write", ENOSPC);
-    }
+    if (written < 0) fail("write");
+    if (written == 0) fail_at(path_, "write", ENOSPC);
     bytes.remove_prefix(static_cast<std::size_t>(written));
   }
 }
 
 void File::sync_data() {
-  if (retried([&] { return ::fdatasync(descriptor_); }) < 0) {
-    fail("sync");
-  }
+  if (retried([&] { return ::fdatasync(descriptor_); }) < 0) fail("sync");
 }
 
 void File::sync() {
-  if (retried([&] { return ::fsync(descriptor_); }) < 0) {
-    fail("sync");
-  }
+  if (retried([&] { return ::fsync(descriptor_); }) < 0) fail("sync");
 }
 
 void File::truncate(std::uint64_t size) {
   const auto offset = static_cast<off_t>(size);
-  if (retried([&] { return ::ftruncate(descriptor_, offset); }) < 0) {
-    fail("truncate");
-  }
-  if (::lseek(descriptor_, offset, SEEK_SET) < 0) {
-    fail("seek in");
-  }
+  if (retried([&] { return ::ftruncate(descriptor_, offset); }) < 0) fail("truncate");
+  if (::lseek(descriptor_, offset, SEEK_SET) < 0) fail("seek in");
 }
 
 std::string File::read_all() const {
   struct stat info = {};
-  if (::fstat(descriptor_, &info) < 0) {
-    fail("read");
-  }
+  if (::fstat(descriptor_, &info) < 0) fail("read");
   std::string bytes(static_cast<std::size_t>(info.st_size), '\0');
   std::size_t filled = 0;
   while (filled < bytes.size()) {
@@ -123,9 +103,7 @@ std::string File::read_all() const {
       return ::pread(descriptor_, bytes.data() + filled, bytes.size() - filled,
                      static_cast<off_t>(filled));
     });
-    if (got < 0) {
-      fail("read");
-    }
+    if (got < 0) fail("read");
     if (got == 0) {
       break;  // the file became shorter meanwhile
     }
@@ -139,12 +117,8 @@ std::string File::read_all() const {
 // fork, and unlike it they can be asked about without being taken, and work over NFS.
 bool File::try_lock() {
   struct flock lock = whole_file(F_WRLCK);
-  if (retried([&] { return ::fcntl(descriptor_, F_OFD_SETLK, &lock); }) == 0) {
-    return true;
-  }
-  if (errno == EAGAIN || errno == EACCES) {
-    return false;
-  }
+  if (retried([&] { return ::fcntl(descriptor_, F_OFD_SETLK, &lock); }) == 0) return true;
+  if (errno == EAGAIN || errno == EACCES) return false;
   fail("lock");
 }
 
@@ -165,9 +139,7 @@ void sync_directory(const std::filesystem::path& directory) {
 
 void replace_file(const std::filesystem::path& temporary, const std::filesystem::path& path) {
   File(temporary, O_RDONLY).sync();
-  if (::rename(temporary.c_str(), path.c_str()) < 0) {
-    fail_at(path, "replace", errno);
-  }
+  if (::rename(temporary.c_str(), path.c_str()) < 0) fail_at(path, "replace", errno);
   sync_directory(path.parent_path());
 }
 

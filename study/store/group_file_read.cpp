@@ -85,9 +85,7 @@ std::vector<std::string> read_texts(hid_t dataset, std::size_t count) {
   std::vector<char*> data(count, nullptr);
   check(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data.data()), "read a dataset");
   std::vector<std::string> texts;
-  for (char* text : data) {
-    texts.push_back(take_text(text));
-  }
+  for (char* text : data) texts.push_back(take_text(text));
   return texts;
 }
 
@@ -121,9 +119,7 @@ Column read_column(hid_t dataset) {
   }
   if (column.unit == "1") column.unit = text_of(dataset, "unit");
   std::istringstream meanings(text_of(dataset, "flag_meanings"));
-  for (std::string word; meanings >> word;) {
-    column.words.push_back(word);
-  }
+  for (std::string word; meanings >> word;) column.words.push_back(word);
   column.values = read_values(dataset);
   return column;
 }
@@ -148,9 +144,7 @@ std::vector<std::string> link_names(hid_t group) {
   H5G_info_t info = {};
   check(H5Gget_info(group, &info), "list a group");
   std::vector<std::string> names;
-  for (hsize_t i = 0; i < info.nlinks; ++i) {
-    names.push_back(link_name(group, i));
-  }
+  for (hsize_t i = 0; i < info.nlinks; ++i) names.push_back(link_name(group, i));
   return names;
 }
 

@@ -118,9 +118,7 @@ void write_description(hid_t dataset, const Column& column) {
   write_attribute(dataset, "role", column.role.empty() ? "data" : column.role);
   write_attribute(dataset, "path", column.name);
   if (column.format != Column{}.format) write_attribute(dataset, "format", column.format);
-  if (!column.words.empty()) {
-    write_flags(dataset, column.words);
-  }
+  if (!column.words.empty()) write_flags(dataset, column.words);
 }
 
 hdf5::PropertyHandle storage(hsize_t count, bool compressed) {
@@ -182,9 +180,7 @@ Column row_numbers(std::size_t count) {
 }
 
 void write_columns(hid_t group, Names& names, const Table& data) {
-  if (data.columns.empty()) {
-    return;
-  }
+  if (data.columns.empty()) return;
   const std::size_t rows = row_count(data);
   const bool has_axis = data.columns.front().role == "axis";
   const Column axis = has_axis ? data.columns.front() : row_numbers(rows);
@@ -206,9 +202,7 @@ hdf5::PropertyHandle ordered(hid_t property_class) {
 
 void write_group(hid_t group, const Table& data) {
   Names names;
-  for (const Attribute& attribute : data.attributes) {
-    write_attribute(group, attribute);
-  }
+  for (const Attribute& attribute : data.attributes) write_attribute(group, attribute);
   write_columns(group, names, data);
   for (const Table& child : data.parts) {
     const std::string name = names.take(child.name);

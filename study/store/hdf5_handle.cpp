@@ -10,9 +10,7 @@ namespace {
 // The walk goes from the innermost error outwards; the first one is the reason.
 herr_t keep_first(unsigned, const H5E_error2_t* error, void* reason) {
   auto& text = *static_cast<std::string*>(reason);
-  if (text.empty() && error->desc != nullptr) {
-    text = error->desc;
-  }
+  if (text.empty() && error->desc != nullptr) text = error->desc;
   return 0;
 }
 

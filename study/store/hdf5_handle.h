@@ -13,9 +13,7 @@ namespace linkstudy::hdf5 {
 [[noreturn]] void fail(std::string_view doing);
 
 inline hid_t check(hid_t id, std::string_view doing) {
-  if (id < 0) {
-    fail(doing);
-  }
+  if (id < 0) fail(doing);
   return id;
 }
 
@@ -29,9 +27,7 @@ class Handle {
     return *this;
   }
   ~Handle() {
-    if (id_ >= 0) {
-      Close(id_);
-    }
+    if (id_ >= 0) Close(id_);
   }
 
   operator hid_t() const { return id_; }

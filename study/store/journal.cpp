@@ -111,9 +111,7 @@ JournalContents parse_journal(std::string_view bytes, const std::filesystem::pat
   Collect collect{contents};
   while (true) {
     const std::string_view payload = next_payload(bytes.substr(at));
-    if (payload.empty()) {
-      break;
-    }
+    if (payload.empty()) break;
     std::visit(collect, decode_payload(payload));
     at += kRecordPrefixSize + payload.size();
   }
@@ -163,9 +161,7 @@ Journal::Journal(const std::filesystem::path& directory, const std::string& inpu
 
 Journal::~Journal() {
   try {
-    if (!failed_ && appended_ != acknowledged_) {
-      sync();
-    }
+    if (!failed_ && appended_ != acknowledged_) sync();
   } catch (const StoreError&) {
     // The records are not acknowledged; whoever needs to know calls sync().
   }
@@ -213,9 +209,7 @@ void Journal::append(const JournalRecord& record) {
     throw;
   }
   end_ += bytes.size();
-  if (appended_ == acknowledged_) {
-    oldest_unsynced_ = Clock::now();
-  }
+  if (appended_ == acknowledged_) oldest_unsynced_ = Clock::now();
   ++appended_;
   if (appended_ - acknowledged_ >= kSyncRecords) {
     sync();
@@ -236,9 +230,7 @@ void Journal::sync() {
 }
 
 void Journal::sync_if_due() {
-  if (appended_ != acknowledged_ && Clock::now() - oldest_unsynced_ >= kSyncInterval) {
-    sync();
-  }
+  if (appended_ != acknowledged_ && Clock::now() - oldest_unsynced_ >= kSyncInterval) sync();
 }
 
 }  // namespace linkstudy

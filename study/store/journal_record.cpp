@@ -91,9 +91,7 @@ JournalHeader decode_header(std::string_view bytes) {
     header.state = HeaderState::foreign;
     return header;
   }
-  if (bytes.size() < kJournalHeaderSize) {
-    return header;
-  }
+  if (bytes.size() < kJournalHeaderSize) return header;
   const std::string_view body = bytes.substr(0, kJournalHeaderSize - 4);
   header.version = from_bytes<std::uint32_t>(bytes.substr(kMagic.size(), 4));
   header.input_sha256 = body.substr(kMagic.size() + 4);
@@ -137,9 +135,7 @@ JournalRecord decode_payload(std::string_view payload) {
   ByteReader in(payload);
   try {
     JournalRecord record = get_record(in);
-    if (in.at_end()) {
-      return record;
-    }
+    if (in.at_end()) return record;
   } catch (const std::out_of_range&) {
   }
   throw StoreError("journal holds a record of another shape; was it written by another version?");

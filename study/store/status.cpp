@@ -17,12 +17,8 @@ double unix_time_s(std::chrono::system_clock::time_point time) {
 
 std::optional<double> time_left(const JournalContents& contents, const StudyStatus& status,
                                 double last_write_unix_s) {
-  if (status.is_complete) {
-    return 0.0;
-  }
-  if (contents.evaluations_since_start == 0) {
-    return std::nullopt;
-  }
+  if (status.is_complete) return 0.0;
+  if (contents.evaluations_since_start == 0) return std::nullopt;
   const std::uint64_t finished = std::min(status.done + status.failed_count(), status.total);
   const double elapsed = std::max(0.0, last_write_unix_s - contents.provenance.back().time_unix_s);
   return static_cast<double>(status.total - finished) * elapsed /
@@ -40,9 +36,7 @@ void find_total(const JournalContents& contents, StudyStatus& status) {
   status.total = contents.provenance.back().total;
   status.is_tune = contents.description && contents.description->kind == "tune";
   status.is_complete = status.is_tune ? has_answer(contents) : finished >= status.total;
-  if (status.is_tune && status.is_complete) {
-    status.total = finished;
-  }
+  if (status.is_tune && status.is_complete) status.total = finished;
 }
 
 }  // namespace

@@ -204,9 +204,7 @@ class BoundSearch {
 
   static double longest_edge(const BoundBox& box) {
     double longest = 0.0;
-    for (std::size_t j = 0; j < box.a.size(); ++j) {
-      longest = std::max(longest, box.b[j] - box.a[j]);
-    }
+    for (std::size_t j = 0; j < box.a.size(); ++j) longest = std::max(longest, box.b[j] - box.a[j]);
     return longest;
   }
 

@@ -34,9 +34,7 @@ Claim collect_minimality(const CertificateTerms& terms, const EvaluationLog& log
 
 Claim collect_scan(const CertificateTerms& terms, const EvaluationLog& log) {
   Claim claim{"C2", "nothing of the declared scan below k* matches", {}, {}, {}};
-  for (const std::vector<double>& x : scan_below(terms)) {
-    add_ids(log, x, claim);
-  }
+  for (const std::vector<double>& x : scan_below(terms)) add_ids(log, x, claim);
   return claim;
 }
 

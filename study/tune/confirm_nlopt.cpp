@@ -34,9 +34,7 @@ class Run {
   }
 
   void rethrow() const {
-    if (error_) {
-      std::rethrow_exception(error_);
-    }
+    if (error_) std::rethrow_exception(error_);
   }
 
   std::vector<double> point_of(const std::vector<double>& s) const {
@@ -70,9 +68,7 @@ class Run {
   }
 
   void stop(const std::string& why) {
-    if (stopped_.empty()) {
-      stopped_ = why;
-    }
+    if (stopped_.empty()) stopped_ = why;
     opt_.force_stop();
   }
 
@@ -101,9 +97,7 @@ class Run {
     keep_exception([&] {
       count_call();
       const Observation* observation = stopped_.empty() ? observe(s) : nullptr;
-      if (observation != nullptr) {
-        write(observation->answer, g);
-      }
+      if (observation != nullptr) write(observation->answer, g);
     });
   }
 
@@ -134,9 +128,7 @@ class Run {
 
   void write(const Answer& answer, Constraints g) const {
     const std::vector<MatchComponent>& components = log_.problem().components;
-    if (!std::isfinite(compute_ratio(answer, components))) {
-      return;
-    }
+    if (!std::isfinite(compute_ratio(answer, components))) return;
     for (std::size_t i = 0; i < components.size(); ++i) {
       const double ratio = std::log10(answer.errors[i] / components[i].tolerance);
       g.begin[i] = std::clamp(ratio, -kPenalty, kPenalty);

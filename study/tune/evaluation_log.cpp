@@ -22,15 +22,11 @@ void ensure_shape(const Answer& answer, std::size_t components) {
 }  // namespace
 
 double compute_ratio(const Answer& answer, const std::vector<MatchComponent>& components) {
-  if (answer.status != Cause::ok || answer.errors.size() != components.size()) {
-    return kInfinity;
-  }
+  if (answer.status != Cause::ok || answer.errors.size() != components.size()) return kInfinity;
   double largest = 0.0;
   for (std::size_t i = 0; i < components.size(); ++i) {
     const double error = answer.errors[i];
-    if (!std::isfinite(error) || error < 0.0) {
-      return kInfinity;
-    }
+    if (!std::isfinite(error) || error < 0.0) return kInfinity;
     largest = std::max(largest, error / components[i].tolerance);
   }
   return largest;
@@ -41,9 +37,7 @@ std::size_t find_binding(const Answer& answer, const std::vector<MatchComponent>
   const std::size_t count = std::min(answer.errors.size(), components.size());
   for (std::size_t i = 1; i < count; ++i) {
     const double best = answer.errors[binding] / components[binding].tolerance;
-    if (answer.errors[i] / components[i].tolerance > best) {
-      binding = i;
-    }
+    if (answer.errors[i] / components[i].tolerance > best) binding = i;
   }
   return binding;
 }
@@ -89,9 +83,7 @@ bool EvaluationLog::evaluate(const std::vector<Request>& requests) {
   bool complete = true;
   for (const Request& request : requests) {
     const Key key{request.x, request.step_factor};
-    if (known_.count(key) != 0 || asked.count(key) != 0) {
-      continue;
-    }
+    if (known_.count(key) != 0 || asked.count(key) != 0) continue;
     if (fresh.size() == remaining()) {
       complete = false;
       break;
@@ -129,9 +121,7 @@ const Observation* EvaluationLog::find(const std::vector<double>& x, double step
 
 std::optional<double> EvaluationLog::ratio(double value, double step_factor) const {
   const Observation* observation = find({value}, step_factor);
-  if (observation == nullptr) {
-    return std::nullopt;
-  }
+  if (observation == nullptr) return std::nullopt;
   return compute_ratio(observation->answer, problem_.components);
 }
 
@@ -148,9 +138,7 @@ bool EvaluationLog::is_candidate(const std::vector<double>& x) const {
 std::vector<double> EvaluationLog::base_values() const {
   std::vector<double> values;
   for (const Observation& observation : observations_) {
-    if (observation.request.step_factor == 1.0) {
-      values.push_back(observation.request.x.front());
-    }
+    if (observation.request.step_factor == 1.0) values.push_back(observation.request.x.front());
   }
   std::sort(values.begin(), values.end());
   return values;

@@ -31,9 +31,7 @@ std::optional<double> find_rejected_below(const EvaluationLog& log, double value
   std::optional<double> below;
   for (const double other : log.base_values()) {
     const bool open = log.acceptance({other}) == Acceptance::open && feasible_at_base(log, other);
-    if (other < value && !open && log.acceptance({other}) != Acceptance::accepted) {
-      below = other;
-    }
+    if (other < value && !open && log.acceptance({other}) != Acceptance::accepted) below = other;
   }
   return below;
 }
@@ -49,9 +47,7 @@ bool is_noise_gap(const EvaluationLog& log, double failing) {
 
 std::optional<double> find_failing_above(const EvaluationLog& log, double value) {
   for (const double other : log.base_values()) {
-    if (other > value && !feasible_at_base(log, other) && !is_noise_gap(log, other)) {
-      return other;
-    }
+    if (other > value && !feasible_at_base(log, other) && !is_noise_gap(log, other)) return other;
   }
   return std::nullopt;
 }
@@ -82,31 +78,23 @@ void climb(EvaluationLog& log, double value) {
     }
     log.evaluate(requests);
     for (std::size_t i = first; i < std::min(first + group, values.size()); ++i) {
-      if (log.acceptance({values[i]}) == Acceptance::accepted) {
-        return;
-      }
+      if (log.acceptance({values[i]}) == Acceptance::accepted) return;
     }
   }
 }
 
 std::optional<double> find_accepted_from(const EvaluationLog& log, double value) {
   for (const double other : log.base_values()) {
-    if (other >= value && log.acceptance({other}) == Acceptance::accepted) {
-      return other;
-    }
+    if (other >= value && log.acceptance({other}) == Acceptance::accepted) return other;
   }
   return std::nullopt;
 }
 
 double settle_at_both(EvaluationLog& log, double value) {
   const std::optional<double> accepted = find_accepted_from(log, value);
-  if (!accepted) {
-    return value;
-  }
+  if (!accepted) return value;
   const std::optional<double> rejected = find_rejected_below(log, *accepted);
-  if (!rejected) {
-    return *accepted;
-  }
+  if (!rejected) return *accepted;
   const double resolution = log.options().resolution;
   return search_section(log, {*rejected, *accepted},
                         {WindowEnd::lower, Steps::both, resolution, "half_step"})
@@ -140,13 +128,9 @@ double descend(EvaluationLog& log, double candidate) {
     value = search_section(log, {*below, value}, settings).feasible;
   }
   std::vector<Request> requests = {{{value}, 0.5, "half_step"}};
-  for (const Request& neighbour : ask_neighbour(log, value)) {
-    requests.push_back(neighbour);
-  }
+  for (const Request& neighbour : ask_neighbour(log, value)) requests.push_back(neighbour);
   log.evaluate(requests);
-  if (log.acceptance({value}) == Acceptance::rejected) {
-    climb(log, value);
-  }
+  if (log.acceptance({value}) == Acceptance::rejected) climb(log, value);
   return settle_at_both(log, value);
 }
 

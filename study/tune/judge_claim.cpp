@@ -33,9 +33,7 @@ std::string format_point(const std::vector<double>& x) {
 }
 
 std::string describe(const Observation* observation, const CertificateTerms& terms) {
-  if (observation == nullptr) {
-    return "not evaluated";
-  }
+  if (observation == nullptr) return "not evaluated";
   if (observation->answer.status != Cause::ok) {
     return std::string(name_of(observation->answer.status));
   }
@@ -48,9 +46,7 @@ Acceptance accept(const CertificateTerms& terms, const Evidence& evidence,
 }
 
 bool is_half_step(const Observation* base, const Observation* half) {
-  if (base == nullptr || half == nullptr || !(base->answer.step > 0.0)) {
-    return true;
-  }
+  if (base == nullptr || half == nullptr || !(base->answer.step > 0.0)) return true;
   return std::abs(half->answer.step - 0.5 * base->answer.step) <= 1e-3 * base->answer.step;
 }
 

@@ -40,9 +40,8 @@ class Lockstep {
     }
     threads_.clear();  // joins
     if (failure_) std::rethrow_exception(failure_);
-    for (const Seat& seat : seats_) {
+    for (const Seat& seat : seats_)
       if (seat.error) std::rethrow_exception(seat.error);
-    }
   }
 
  private:
@@ -74,9 +73,8 @@ class Lockstep {
       return std::ranges::none_of(seats_, [](const Seat& s) { return s.state == SeatState::runs; });
     });
     std::vector<Seat*> asking;
-    for (Seat& seat : seats_) {
+    for (Seat& seat : seats_)
       if (seat.state == SeatState::asks) asking.push_back(&seat);
-    }
     if (asking.empty()) return false;
     if (!failure_) answer(asking);
     for (Seat* seat : asking) seat->state = SeatState::runs;

@@ -52,9 +52,8 @@ std::vector<StepBound> find_bounds(const std::vector<MatchComponent>& components
 }
 
 bool is_strictly_below(const Position& a, const Position& b) {
-  for (std::size_t j = 0; j < a.size(); ++j) {
+  for (std::size_t j = 0; j < a.size(); ++j)
     if (!(a[j] < b[j])) return false;
-  }
   return true;
 }
 
@@ -116,9 +115,8 @@ double sum_of(const Position& t) {
 }
 
 bool reaches_above(const Position& b, const Position& a) {
-  for (std::size_t j = 0; j < a.size(); ++j) {
+  for (std::size_t j = 0; j < a.size(); ++j)
     if (a[j] > b[j] + kReach) return false;
-  }
   return true;
 }
 

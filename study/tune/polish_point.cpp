@@ -176,9 +176,7 @@ std::vector<double> polish_point(EvaluationLog& log, std::vector<double> point,
                                  std::size_t reserve) {
   for (int round = 0; round < kMostRounds && budget_of(log, reserve) > 0; ++round) {
     const double before = compute_objective(point);
-    for (std::size_t j = 0; j < point.size(); ++j) {
-      point = descend_axis(log, point, j, reserve);
-    }
+    for (std::size_t j = 0; j < point.size(); ++j) point = descend_axis(log, point, j, reserve);
     if (before - compute_objective(point) <= log.options().resolution) break;
   }
   return point;

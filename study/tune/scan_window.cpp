@@ -55,9 +55,7 @@ Span find_valley(const std::vector<ScanPoint>& points) {
       feasible = {std::min(feasible.low, point.value), std::max(feasible.high, point.value)};
     }
   }
-  if (feasible.high > 0.0) {
-    return feasible;
-  }
+  if (feasible.high > 0.0) return feasible;
   const auto best = std::min_element(
       points.begin(), points.end(), [](const auto& a, const auto& b) { return a.ratio < b.ratio; });
   return {best->value, best->value};
@@ -72,12 +70,8 @@ bool falls_through(const std::vector<ScanPoint>& points, std::size_t i) {
 
 Side decide_side(const std::vector<ScanPoint>& points, std::size_t i, const Span& valley) {
   const ScanPoint& point = points[i];
-  if (!step_may_matter(point.h_omega) || point.value < valley.low) {
-    return Side::too_soft;
-  }
-  if (point.value > valley.high) {
-    return Side::step_too_coarse;
-  }
+  if (!step_may_matter(point.h_omega) || point.value < valley.low) return Side::too_soft;
+  if (point.value > valley.high) return Side::step_too_coarse;
   if (valley.low < valley.high) {
     return falls_through(points, i) ? Side::too_soft : Side::step_too_coarse;
   }
@@ -118,9 +112,7 @@ std::vector<Split> find_splits(const EvaluationLog& log) {
     const double a = known_log_ratio(log, values[i]);
     const double b = known_log_ratio(log, values[i + 1]);
     const bool both_failed = a >= 12.0 && b >= 12.0;
-    if (both_failed || std::log10(values[i + 1] / values[i]) <= narrowest) {
-      continue;
-    }
+    if (both_failed || std::log10(values[i + 1] / values[i]) <= narrowest) continue;
     const IntervalBound bound = bound_beside_failure(values[i], a, values[i + 1], b);
     if (bound.log_ratio <= 0.0) {
       splits.push_back({bound.log_ratio, bound.value});
@@ -160,18 +152,12 @@ IntervalBound bound_between(double a, double log_ratio_a, double b, double log_r
 
 std::vector<ScanPoint> classify_points(const EvaluationLog& log) {
   std::vector<ScanPoint> points;
-  for (const double value : log.base_values()) {
-    points.push_back(describe(log, value));
-  }
-  if (points.empty()) {
-    return points;
-  }
+  for (const double value : log.base_values()) points.push_back(describe(log, value));
+  if (points.empty()) return points;
   const Span valley = find_valley(points);
   const std::vector<ScanPoint> seen = points;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (points[i].side == Side::too_soft) {
-      points[i].side = decide_side(seen, i, valley);
-    }
+    if (points[i].side == Side::too_soft) points[i].side = decide_side(seen, i, valley);
   }
   return points;
 }
@@ -185,9 +171,7 @@ bool any_feasible(const EvaluationLog& log) {
 bool refine_scan(EvaluationLog& log) {
   while (!any_feasible(log) && !log.exhausted()) {
     const std::vector<Split> splits = find_splits(log);
-    if (splits.empty()) {
-      return false;
-    }
+    if (splits.empty()) return false;
     std::vector<Request> requests;
     for (std::size_t i = 0; i < std::min(splits.size(), log.options().batch); ++i) {
       requests.push_back({{splits[i].value}, 1.0, "refine"});

@@ -78,9 +78,7 @@ std::vector<double> keep_inside(std::vector<double> places, const Bracket& brack
 
 std::optional<double> judged_ratio(const EvaluationLog& log, double value, Steps steps) {
   const std::optional<double> base = log.ratio(value, 1.0);
-  if (!base || steps == Steps::base || *base > 1.0) {
-    return base;
-  }
+  if (!base || steps == Steps::base || *base > 1.0) return base;
   const std::optional<double> half = log.ratio(value, 0.5);
   return half ? std::optional<double>(std::max(*base, *half)) : std::nullopt;
 }
@@ -103,9 +101,7 @@ void tighten_lower(const EvaluationLog& log, std::vector<double> values, Steps s
       bracket.feasible = value;
       return;
     }
-    if (ratio) {
-      bracket.failing = value;
-    }
+    if (ratio) bracket.failing = value;
   }
 }
 
@@ -118,9 +114,7 @@ void tighten_upper(const EvaluationLog& log, std::vector<double> values, Steps s
       bracket.failing = value;
       return;
     }
-    if (ratio) {
-      bracket.feasible = value;
-    }
+    if (ratio) bracket.feasible = value;
   }
 }
 
@@ -154,9 +148,7 @@ std::vector<double> place_section(const Bracket& bracket, const EndRatios& ends,
   add_equal_sections(places, bracket, count - std::min(count, places.size()));
   const double separation = std::min(0.05 * settings.resolution, 0.1 * width_in_decades(bracket));
   std::vector<double> values = keep_inside(std::move(places), bracket, separation);
-  if (values.empty()) {
-    values.push_back(std::sqrt(bracket.failing) * std::sqrt(bracket.feasible));
-  }
+  if (values.empty()) values.push_back(std::sqrt(bracket.failing) * std::sqrt(bracket.feasible));
   return values;
 }
 

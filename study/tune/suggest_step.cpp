@@ -69,17 +69,13 @@ std::vector<Limit> find_limits(const EvaluationLog& log) {
 }
 
 double interpolate_limit(const std::vector<Limit>& limits, double value) {
-  if (limits.empty()) {
-    return kNoLimit;
-  }
+  if (limits.empty()) return kNoLimit;
   const auto above = std::find_if(limits.begin(), limits.end(),
                                   [&](const Limit& limit) { return limit.value >= value; });
   if (above == limits.end()) {
     return limits.back().step * std::sqrt(limits.back().value / value);
   }
-  if (above == limits.begin()) {
-    return above->step;
-  }
+  if (above == limits.begin()) return above->step;
   const Limit& below = *(above - 1);
   const double part = std::log(value / below.value) / std::log(above->value / below.value);
   return below.step * std::pow(above->step / below.step, part);
@@ -89,9 +85,7 @@ double allowed_step(const EvaluationLog& log, const std::vector<ErrorModel>& mod
   double step = kNoLimit;
   for (std::size_t i = 0; i < models.size(); ++i) {
     const double left = log.problem().components[i].tolerance - models[i].soft / value;
-    if (left <= 0.0) {
-      return 0.0;
-    }
+    if (left <= 0.0) return 0.0;
     if (models[i].coarse > 0.0) {
       step = std::min(step, std::pow(left / (models[i].coarse * value * value), 0.25));
     }
@@ -132,9 +126,7 @@ double find_soft_limit(const EvaluationLog& log, const std::vector<ErrorModel>& 
 std::optional<std::uint64_t> find_half_step_match(const EvaluationLog& log) {
   for (const Observation& observation : log.observations()) {
     const double ratio = compute_ratio(observation.answer, log.problem().components);
-    if (observation.request.step_factor == 0.5 && ratio <= 1.0) {
-      return observation.answer.id;
-    }
+    if (observation.request.step_factor == 0.5 && ratio <= 1.0) return observation.answer.id;
   }
   return std::nullopt;
 }
@@ -143,9 +135,7 @@ std::optional<std::uint64_t> find_half_step_match(const EvaluationLog& log) {
 std::optional<ScanPoint> find_wall(const EvaluationLog& log, double best) {
   for (const ScanPoint& point : classify_points(log)) {
     const bool by_step = point.side == Side::step_too_coarse || point.side == Side::diverged;
-    if (by_step && point.value > best) {
-      return point;
-    }
+    if (by_step && point.value > best) return point;
   }
   return std::nullopt;
 }
@@ -169,9 +159,7 @@ std::string explain(const EvaluationLog& log, const std::vector<ErrorModel>& mod
                     const StepSuggestion& suggestion, const std::optional<ScanPoint>& wall) {
   const TunedVariable& variable = log.problem().variables.front();
   const double needed = find_soft_limit(log, models);
-  if (needed >= variable.high && wall) {
-    return explain_wall(log, suggestion, *wall, needed);
-  }
+  if (needed >= variable.high && wall) return explain_wall(log, suggestion, *wall, needed);
   if (needed >= variable.high) {
     return fmt::format("too soft over the whole range: raise its end above {:.3g} {}", needed,
                        variable.unit);
@@ -203,9 +191,7 @@ ErrorModel fit_error_model(const std::vector<ErrorSample>& samples) {
     scale_h = std::max(scale_h, sample.step);
   }
   for (const ErrorSample& sample : samples) {
-    if (!(sample.error > 0.0)) {
-      continue;
-    }
+    if (!(sample.error > 0.0)) continue;
     const double c = sample.stiffness / scale_c;
     const double h = sample.step / scale_h;
     const double a = 1.0 / (c * sample.error);

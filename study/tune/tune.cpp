@@ -41,9 +41,7 @@ void describe_nearest(const EvaluationLog& log, TuningResult& result) {
   double smallest = std::numeric_limits<double>::infinity();
   for (const double value : log.base_values()) {
     const double ratio = log.ratio(value, 1.0).value();
-    if (ratio >= smallest) {
-      continue;
-    }
+    if (ratio >= smallest) continue;
     smallest = ratio;
     result.answer = log.find({value}, 1.0)->answer;
     result.answer_value = value;
@@ -62,9 +60,7 @@ std::string nearest_text(const TuningResult& result) {
 }
 
 void describe_empty_window(EvaluationLog& log, TuningResult& result) {
-  if (!log.exhausted()) {
-    probe_half_step(log);
-  }
+  if (!log.exhausted()) probe_half_step(log);
   if (log.base_values().empty()) {
     result.reason = budget_reason(log);
     return;
@@ -152,9 +148,7 @@ Search search_window(EvaluationLog& log, NloptReport& nlopt) {
     }
     gather_evidence(log, search);
     const double lowest = find_lowest_accepted(log).value_or(search.value);
-    if (lowest >= search.value) {
-      break;
-    }
+    if (lowest >= search.value) break;
     search.value = lowest;
   }
   return search;
@@ -193,9 +187,7 @@ void add_notes(const TuningOptions& options, TuningResult& result) {
 void describe_window(EvaluationLog& log, Search search, TuningResult& result) {
   const double value = find_lowest_accepted(log).value_or(search.value);
   search.window = find_window(log, value);  // with everything NLopt and the claims have seen
-  if (value != search.value) {
-    search.terms = terms_at(log, value, search.window);
-  }
+  if (value != search.value) search.terms = terms_at(log, value, search.window);
   result.point = {value};
   result.objective = search.terms.objective;
   result.answer = log.find(result.point, 1.0)->answer;
@@ -233,9 +225,7 @@ TuningResult tune(const TuningProblem& problem, const TuningOptions& options,
   result.observations = log.observations();
   result.first_failure = find_first_failure(log);
   result.rounds = log.rounds();
-  if (result.window) {
-    add_notes(options, result);
-  }
+  if (result.window) add_notes(options, result);
   return result;
 }
 

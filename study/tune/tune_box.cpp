@@ -121,9 +121,7 @@ class BoxTuning {
 
   std::string say_end() const {
     const BoundEnd end = bound_ ? bound_->end : BoundEnd::closed;
-    if (log_.remaining() == 0 || end == BoundEnd::budget) {
-      return "; " + budget_reason(log_);
-    }
+    if (log_.remaining() == 0 || end == BoundEnd::budget) return "; " + budget_reason(log_);
     if (end == BoundEnd::undecided) return "; with this mu no smaller gap can be proven";
     if (end == BoundEnd::not_monotone) return "; such errors are not monotone";
     return {};

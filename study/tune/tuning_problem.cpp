@@ -93,9 +93,7 @@ std::size_t usual_budget(std::size_t variables) {
 
 double compute_objective(const std::vector<double>& x) {
   double sum = 0.0;
-  for (const double value : x) {
-    sum += std::log10(value);
-  }
+  for (const double value : x) sum += std::log10(value);
   return sum;
 }
 
@@ -106,9 +104,7 @@ double compute_objective(const TuningProblem& problem, const std::vector<double>
     return is_known ? answer.objective : std::numeric_limits<double>::infinity();
   }
   double sum = 0.0;
-  for (std::size_t j = 0; j < x.size(); ++j) {
-    sum += problem.variables[j].weight * std::log10(x[j]);
-  }
+  for (std::size_t j = 0; j < x.size(); ++j) sum += problem.variables[j].weight * std::log10(x[j]);
   return sum;
 }
 

@@ -19,9 +19,8 @@ double move_along(const TunedVariable& variable, double value, double decades) {
 }
 
 bool is_below(const std::vector<double>& a, const std::vector<double>& b) {
-  for (std::size_t j = 0; j < a.size(); ++j) {
+  for (std::size_t j = 0; j < a.size(); ++j)
     if (a[j] > b[j]) return false;
-  }
   return true;
 }
 

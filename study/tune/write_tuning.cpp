@@ -86,9 +86,7 @@ std::string describe_reach(const StepReach& reach) {
 
 void add_answer(std::string& text, const TuningResult& result) {
   const Answer& answer = result.answer;
-  if (answer.errors.empty()) {
-    return;
-  }
+  if (answer.errors.empty()) return;
   std::string binding = describe_binding(result);
   if (result.point.empty() && result.problem.variables.size() == 1) {
     binding += fmt::format(" at {:.6g} {} (evaluation {})", result.answer_value,
@@ -102,9 +100,7 @@ void add_answer(std::string& text, const TuningResult& result) {
 }
 
 void add_first_failure(std::string& text, const TuningResult& result) {
-  if (!result.first_failure) {
-    return;
-  }
+  if (!result.first_failure) return;
   const Answer& answer = result.first_failure->answer;
   const std::string said = answer.message.empty() ? "" : ": " + answer.message;
   add_line(text, "first end",
@@ -124,9 +120,7 @@ Json make_derived(const TuningResult& result) {
 }
 
 Json make_first_failure(const TuningResult& result) {
-  if (!result.first_failure) {
-    return nullptr;
-  }
+  if (!result.first_failure) return nullptr;
   const Answer& answer = result.first_failure->answer;
   return {{"evaluation", answer.id},
           {"value", result.first_failure->request.x.front()},
@@ -135,9 +129,7 @@ Json make_first_failure(const TuningResult& result) {
 }
 
 Json make_binding(const TuningResult& result) {
-  if (result.answer.errors.empty()) {
-    return nullptr;
-  }
+  if (result.answer.errors.empty()) return nullptr;
   const MatchComponent& component = result.problem.components[result.binding];
   const Json bound = component.bound.empty() ? Json(nullptr) : Json(component.bound);
   return {{"component", component.name},
@@ -150,9 +142,7 @@ Json make_binding(const TuningResult& result) {
 
 std::string describe_nlopt(const TuningResult& result) {
   const NloptReport& nlopt = result.nlopt;
-  if (!nlopt.ran) {
-    return nlopt.ended;
-  }
+  if (!nlopt.ran) return nlopt.ended;
   if (!result.windows.empty()) {
     return fmt::format("{}: {} evaluations ({})", nlopt.algorithm, nlopt.evaluations, nlopt.ended);
   }
@@ -163,9 +153,7 @@ std::string describe_nlopt(const TuningResult& result) {
 }
 
 void add_certificate(std::string& text, const TuningResult& result) {
-  if (!result.certificate) {
-    return;
-  }
+  if (!result.certificate) return;
   for (const Claim& claim : result.certificate->claims) {
     const bool few = !claim.evaluations.empty() && claim.evaluations.size() <= 4;
     const std::string ids =
@@ -195,9 +183,7 @@ void add_points(std::string& text, const TuningResult& result) {
   text += fmt::format("\n{:>{}}  {:>15}  {:<16}{:>10}\n", head, width, "error/tolerance", "side",
                       "evaluation");
   for (const ScanPoint& point : result.points) {
-    if (!point.declared) {
-      continue;
-    }
+    if (!point.declared) continue;
     const bool ended = point.cause != Cause::ok;
     const std::string side = point.side == Side::failed && ended
                                  ? std::string(linkstudy::name_of(point.cause))
@@ -254,9 +240,7 @@ void add_box_keys(Json& json, const TuningResult& result) {
 }
 
 Json make_claims(const TuningResult& result) {
-  if (!result.certificate) {
-    return nullptr;
-  }
+  if (!result.certificate) return nullptr;
   Json claims = Json::object();
   for (const Claim& claim : result.certificate->claims) {
     claims[claim.name] = {{"verdict", name_of(claim.verdict)},
@@ -268,9 +252,7 @@ Json make_claims(const TuningResult& result) {
 }
 
 Json make_suggestion(const TuningResult& result) {
-  if (!result.suggestion) {
-    return nullptr;
-  }
+  if (!result.suggestion) return nullptr;
   const StepSuggestion& suggestion = *result.suggestion;
   return {{"step", suggestion.step > 0.0 ? Json(suggestion.step) : Json(nullptr)},
           {"value", suggestion.step > 0.0 ? Json(suggestion.value) : Json(nullptr)},
@@ -289,14 +271,10 @@ std::string write_text(const TuningResult& result) {
   add_window(text, result);
   add_answer(text, result);
   add_first_failure(text, result);
-  if (result.window) {
-    add_line(text, "NLopt", describe_nlopt(result));
-  }
+  if (result.window) add_line(text, "NLopt", describe_nlopt(result));
   add_certificate(text, result);
   add_staircase(text, result);
-  for (const std::string& note : result.notes) {
-    add_line(text, "note", note);
-  }
+  for (const std::string& note : result.notes) add_line(text, "note", note);
   add_line(text, "cost",
            fmt::format("{} evaluations in {} rounds", result.observations.size(), result.rounds));
   add_points(text, result);

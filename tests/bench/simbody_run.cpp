@@ -16,9 +16,8 @@ SimTK::Vec3 vec3(const Eigen::Vector3d& v) {
 
 SimTK::Transform transform(const Frame& frame) {
   SimTK::Mat33 R;
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) R(i, j) = frame.rotation(i, j);
-  }
   return {SimTK::Rotation(R), vec3(frame.position)};
 }
 

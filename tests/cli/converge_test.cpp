@@ -80,9 +80,8 @@ class Converge : public Program {
   }
 
   static json table_of(const json& answer, const std::string& name) {
-    for (const json& table : answer["tables"]) {
+    for (const json& table : answer["tables"])
       if (table["name"] == name) return table;
-    }
     ADD_FAILURE() << "no table " << name;
     return {};
   }

@@ -121,9 +121,8 @@ Linkage twin_rsup() {
   pin.first.link = twin(pin.first.link);
   pin.second.link = twin(pin.second.link);
   linkage.closures.push_back(pin);
-  for (Link& link : linkage.links) {
+  for (Link& link : linkage.links)
     if (link.name == "crank") link.center_of_mass.setZero();
-  }
   return linkage;
 }
 

@@ -30,9 +30,8 @@ bool is_number(const std::string& text) {
 }  // namespace
 
 const std::vector<double>& Csv::column(const std::string& name) const {
-  for (std::size_t k = 0; k < names.size(); ++k) {
+  for (std::size_t k = 0; k < names.size(); ++k)
     if (names[k] == name) return columns.at(k);
-  }
   throw std::invalid_argument(fmt::format("csv: no column '{}'", name));
 }
 

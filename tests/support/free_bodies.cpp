@@ -120,9 +120,8 @@ Moving joint_motion(Moving m, const Joint& joint, Reader& read) {
 }
 
 const Link& body_of(const Linkage& linkage, const std::string& name) {
-  for (const Link& link : linkage.links) {
+  for (const Link& link : linkage.links)
     if (link.name == name) return link;
-  }
   throw std::invalid_argument(fmt::format("free bodies: no link '{}'", name));
 }
 

@@ -25,9 +25,7 @@ LinkTransform joint_transform(const TraceLink& link, const Vector& q) {
   local.T_ij.resize(n);
   for (int i = 0; i < n; ++i) {
     local.T_i.push_back(product(i, -1));
-    for (int j = 0; j < n; ++j) {
-      local.T_ij[i].push_back(j < i ? local.T_ij[j][i] : product(i, j));
-    }
+    for (int j = 0; j < n; ++j) local.T_ij[i].push_back(j < i ? local.T_ij[j][i] : product(i, j));
   }
   return local;
 }

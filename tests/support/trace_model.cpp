@@ -11,9 +11,8 @@ namespace linkstudy::testing {
 namespace {
 
 const Link& find_link(const Linkage& linkage, const std::string& name) {
-  for (const Link& link : linkage.links) {
+  for (const Link& link : linkage.links)
     if (link.name == name) return link;
-  }
   throw std::invalid_argument(fmt::format("oracle: no link '{}'", name));
 }
 
@@ -157,9 +156,8 @@ int link_index(const TraceModel& model, const std::string& link) {
 }
 
 int coordinate_index(const TraceModel& model, const std::string& joint) {
-  for (const TraceLink& link : model.links) {
+  for (const TraceLink& link : model.links)
     if (link.joint == joint) return link.first_coordinate;
-  }
   throw std::invalid_argument(fmt::format("oracle: no joint '{}'", joint));
 }
 

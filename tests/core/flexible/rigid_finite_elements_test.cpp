@@ -87,9 +87,7 @@ std::vector<int> velocities_of(const Mechanism& of, const Mechanism& model) {
     const auto at =
         std::find(model.joint_names.begin(), model.joint_names.end(), of.joint_names[b]);
     const auto body = static_cast<std::size_t>(at - model.joint_names.begin());
-    for (int k = 0; k < of.bodies[b].v_count; ++k) {
-      map.push_back(model.bodies[body].v_begin + k);
-    }
+    for (int k = 0; k < of.bodies[b].v_count; ++k) map.push_back(model.bodies[body].v_begin + k);
   }
   return map;
 }

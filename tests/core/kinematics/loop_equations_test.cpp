@@ -48,9 +48,8 @@ class Loop {
   std::vector<int> all_but(int driven) const {
     std::vector<int> columns;
     const int count = mechanism().nv + equations().cut_joint().velocity_count();
-    for (int k = 0; k < count; ++k) {
+    for (int k = 0; k < count; ++k)
       if (k != driven) columns.push_back(k);
-    }
     return columns;
   }
 

@@ -50,16 +50,14 @@ void move(Frame& frame, const Displacement& X) {
 // The whole linkage moved, its weight and ground-fixed loads with it.
 Linkage moved(Linkage linkage, const Displacement& X) {
   linkage.gravity = X.R * linkage.gravity;
-  for (Joint& joint : linkage.joints) {
+  for (Joint& joint : linkage.joints)
     if (joint.parent == kGround) move(joint.frame, X);
-  }
   for (Closure& c : linkage.closures) {
     if (c.first.link == kGround) move(c.first.frame, X);
     if (c.second.link == kGround) move(c.second.frame, X);
   }
-  for (Load& load : linkage.loads) {
+  for (Load& load : linkage.loads)
     if (!load.follows_link) load.direction = X.R * load.direction;
-  }
   return linkage;
 }
 

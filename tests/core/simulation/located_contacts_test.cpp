@@ -63,9 +63,8 @@ Linkage rsup_with_clearance(ClearanceKind kind, bool friction) {
   r.clearance.kind = kind;
   r.clearance.stiffness = 2.1446e10;
   if (friction) r.clearance.friction = table_1_friction();
-  for (Load& load : linkage.loads) {
+  for (Load& load : linkage.loads)
     if (load.type == LoadType::drive) load.course.duration = 2.0;
-  }
   return linkage;
 }
 

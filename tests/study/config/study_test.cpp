@@ -295,9 +295,7 @@ TEST(Study, Paths_and_values_that_do_not_fit_the_model_are_errors_of_the_study) 
        "listed twice"},
       {kStudy, "base.set.closure.S.model", "base.set.closure.S.@modl", "names no value of"},
   };
-  for (const Wrong& wrong : wrongs) {
-    expect_error(wrong);
-  }
+  for (const Wrong& wrong : wrongs) expect_error(wrong);
 }
 
 TEST(Study, Wrong_study_keys_are_errors_with_a_place) {
@@ -330,9 +328,7 @@ TEST(Study, Wrong_study_keys_are_errors_with_a_place) {
       {kStudy, "reference_signal = \"-joint.A.force\"", "reference_signal = @\"-\"",
        "must name a channel"},
   };
-  for (const Wrong& wrong : wrongs) {
-    expect_error(wrong);
-  }
+  for (const Wrong& wrong : wrongs) expect_error(wrong);
 }
 
 TEST(Study, A_match_needs_a_reference_and_a_tune_a_match) {

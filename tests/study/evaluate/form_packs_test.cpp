@@ -26,9 +26,8 @@ std::vector<std::size_t> sizes_of(const Packs& packs) {
 
 std::vector<std::uint64_t> ids_of(const Packs& packs) {
   std::vector<std::uint64_t> ids;
-  for (const auto& pack : packs) {
+  for (const auto& pack : packs)
     for (const Point& point : pack) ids.push_back(point.id);
-  }
   return ids;
 }
 

@@ -41,9 +41,7 @@ TEST(Digest, SHA_256_gives_the_published_vectors) {
   EXPECT_EQ(sha256("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq"),
             "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
   Sha256 in_pieces;
-  for (int i = 0; i < 1000; ++i) {
-    in_pieces.update(std::string(1000, 'a'));
-  }
+  for (int i = 0; i < 1000; ++i) in_pieces.update(std::string(1000, 'a'));
   EXPECT_EQ(in_pieces.finish(), "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
 }
 

@@ -37,9 +37,7 @@ class JournalFile : public Scratch {
 
   void write(std::uint64_t count) const {
     Journal journal(dir_, kInput, OpenMode::fresh);
-    for (std::uint64_t id = 0; id < count; ++id) {
-      journal.append(evaluation(id));
-    }
+    for (std::uint64_t id = 0; id < count; ++id) journal.append(evaluation(id));
   }
 
   // Rows 0 .. count - 1, bit for bit, and nothing else.
@@ -62,9 +60,7 @@ std::vector<std::size_t> record_ends(std::uint64_t count) {
 
 std::uint64_t whole_records(const std::vector<std::size_t>& ends, std::size_t bytes) {
   std::uint64_t count = 0;
-  while (count + 1 < ends.size() && ends[count + 1] <= bytes) {
-    ++count;
-  }
+  while (count + 1 < ends.size() && ends[count + 1] <= bytes) ++count;
   return count;
 }
 
@@ -277,9 +273,7 @@ TEST_F(JournalFile, A_second_writer_is_refused_while_the_first_lives) {
 TEST_F(JournalFile, Sixty_four_records_or_a_tenth_of_a_second_are_synced_unasked) {
   Journal journal(dir_, kInput, OpenMode::resume);
   const auto start = std::chrono::steady_clock::now();
-  for (std::uint64_t id = 0; id < 63; ++id) {
-    journal.append(evaluation(id));
-  }
+  for (std::uint64_t id = 0; id < 63; ++id) journal.append(evaluation(id));
   if (std::chrono::steady_clock::now() - start < std::chrono::milliseconds(100)) {
     EXPECT_EQ(journal.acknowledged(), 0u);
   }
@@ -315,9 +309,7 @@ TEST_F(JournalFile, A_full_disk_is_an_error_and_leaves_whole_records) {
   for (std::size_t limit = ends[kFit]; limit < ends[kFit + 1]; limit += 7) {
     EXPECT_TRUE(with_full_disk(limit, [&] {
       Journal journal(dir_, kInput, OpenMode::fresh);
-      for (std::uint64_t id = 0; id < kFit; ++id) {
-        journal.append(evaluation(id));
-      }
+      for (std::uint64_t id = 0; id < kFit; ++id) journal.append(evaluation(id));
       int errors = 0;
       for (int i = 0; i < 2; ++i) {
         try {
@@ -342,15 +334,11 @@ TEST_F(JournalFile, A_full_disk_is_an_error_and_leaves_whole_records) {
   std::uint64_t told = 0;
   for (std::uint64_t id = first;; ++id) {
     journal.append(evaluation(id));
-    if (id % 7 == 0) {
-      journal.sync();
-    }
+    if (id % 7 == 0) journal.sync();
     if (journal.acknowledged() != told) {
       told = journal.acknowledged();
       const std::uint64_t rows = first + told;
-      if (::write(pipe, &rows, sizeof rows) != sizeof rows) {
-        ::_exit(1);
-      }
+      if (::write(pipe, &rows, sizeof rows) != sizeof rows) ::_exit(1);
     }
   }
 }
@@ -358,9 +346,7 @@ TEST_F(JournalFile, A_full_disk_is_an_error_and_leaves_whole_records) {
 std::uint64_t last_told(int pipe) {
   std::uint64_t rows = 0;
   std::uint64_t last = 0;
-  while (::read(pipe, &rows, sizeof rows) == sizeof rows) {
-    last = rows;
-  }
+  while (::read(pipe, &rows, sizeof rows) == sizeof rows) last = rows;
   return last;
 }
 

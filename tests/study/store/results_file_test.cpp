@@ -141,9 +141,7 @@ TEST_F(ResultsFile, Is_the_same_whether_it_comes_from_memory_or_from_the_journal
     Journal journal(dir_, sample::kInputSha256, OpenMode::resume);
     journal.append(written.description);
     journal.append(written.provenance[0]);
-    for (const std::size_t i : {3, 0, 2, 1}) {
-      journal.append(written.evaluations[i]);
-    }
+    for (const std::size_t i : {3, 0, 2, 1}) journal.append(written.evaluations[i]);
     journal.append(written.references[0]);
     journal.append(written.traces[0]);
     journal.append(written.texts[0]);
@@ -235,9 +233,7 @@ TEST_F(ResultsFile, A_reader_never_sees_a_part) {
     ::alarm(60);
     int reads = 0;
     try {
-      while (read_results(path()).status != RunStatus::interrupted) {
-        ++reads;
-      }
+      while (read_results(path()).status != RunStatus::interrupted) ++reads;
     } catch (const std::exception&) {
       ::_exit(1);
     }

@@ -20,9 +20,7 @@ class Scratch : public testing::Test {
  protected:
   Scratch() {
     std::string pattern = (std::filesystem::temp_directory_path() / "linkstudy_XXXXXX").string();
-    if (::mkdtemp(pattern.data()) == nullptr) {
-      throw std::runtime_error("no scratch directory");
-    }
+    if (::mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no scratch directory");
     dir_ = pattern;
   }
   ~Scratch() override { std::filesystem::remove_all(dir_); }

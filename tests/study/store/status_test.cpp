@@ -110,9 +110,7 @@ TEST_F(Status, Counts_of_a_running_and_of_a_dead_study_agree) {
 // By hand: 6 of 10 were there, 2 more in the 8 s since the resume, 2 are left: 8 s.
 TEST_F(Status, Time_left_goes_by_the_latest_start) {
   JournalContents contents;
-  for (std::uint64_t id = 0; id < 8; ++id) {
-    contents.evaluations.push_back(sample::evaluation(id));
-  }
+  for (std::uint64_t id = 0; id < 8; ++id) contents.evaluations.push_back(sample::evaluation(id));
   contents.provenance = {{"start", 100.0, 10, 1, "", "", "", ""},
                          {"resume", 5000.0, 10, 1, "", "", "", ""}};
   contents.evaluations_since_start = 2;

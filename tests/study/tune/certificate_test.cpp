@@ -43,9 +43,7 @@ TEST_F(ATunedModel, Is_certified_again_from_its_recorded_evaluations) {
 
 TEST_F(ATunedModel, Is_refuted_when_half_the_step_does_not_match) {
   const Certificate checked = check([&](Observation& seen) {
-    if (at(seen, result_.point[0], 0.5)) {
-      seen.answer.errors[0] = 0.0201;
-    }
+    if (at(seen, result_.point[0], 0.5)) seen.answer.errors[0] = 0.0201;
   });
   EXPECT_EQ(checked.verdict, Verdict::refuted);
   EXPECT_EQ(checked.claims[0].verdict, Verdict::refuted);
@@ -72,9 +70,7 @@ TEST_F(ATunedModel, Is_refuted_when_a_lower_point_matches) {
 
 TEST_F(ATunedModel, Is_refuted_when_a_scan_point_below_matches_or_is_missing) {
   const Certificate matching = check([&](Observation& seen) {
-    if (at(seen, 1e3, 1.0)) {
-      seen.answer.errors[0] = 0.001;
-    }
+    if (at(seen, 1e3, 1.0)) seen.answer.errors[0] = 0.001;
   });
   EXPECT_EQ(matching.claims[2].verdict, Verdict::refuted);
   Certificate shortened = certificate();
@@ -88,9 +84,7 @@ TEST_F(ATunedModel, Is_refuted_when_a_scan_point_below_matches_or_is_missing) {
 
 TEST_F(ATunedModel, Is_refuted_when_the_error_rises_near_the_point) {
   const Certificate checked = check([&](Observation& seen) {
-    if (seen.request.x[0] > result_.point[0] * 1.1) {
-      seen.answer.errors[0] = 0.03;
-    }
+    if (seen.request.x[0] > result_.point[0] * 1.1) seen.answer.errors[0] = 0.03;
   });
   EXPECT_EQ(checked.claims[3].verdict, Verdict::refuted) << checked.claims[3].reason;
 }
@@ -98,9 +92,7 @@ TEST_F(ATunedModel, Is_refuted_when_the_error_rises_near_the_point) {
 TEST_F(ATunedModel, Is_refuted_when_its_evaluations_are_gone) {
   const Certificate checked =
       check_certificate(certificate(), [](std::uint64_t) { return std::nullopt; });
-  for (const Claim& claim : checked.claims) {
-    EXPECT_EQ(claim.verdict, Verdict::refuted);
-  }
+  for (const Claim& claim : checked.claims) EXPECT_EQ(claim.verdict, Verdict::refuted);
 }
 
 TEST_F(ATunedModel, Is_refuted_when_its_point_was_changed) {

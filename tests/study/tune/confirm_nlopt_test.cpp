@@ -101,9 +101,7 @@ TEST(NLopt, Passes_an_exception_on_as_it_was) {
   SyntheticError model;
   const auto good = model.evaluator();
   EvaluationLog log(model.problem(), {}, [&](const std::vector<Request>& requests) {
-    if (model.asked.size() == 3) {
-      throw std::domain_error("interrupted");
-    }
+    if (model.asked.size() == 3) throw std::domain_error("interrupted");
     return good(requests);
   });
   log.evaluate({{{3e4}, 1.0, "scan"}});

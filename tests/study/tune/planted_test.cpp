@@ -21,9 +21,8 @@ TuningOptions options_of(std::size_t n) {
 
 const Claim* claim_of(const TuningResult& result, const std::string& name) {
   if (!result.certificate) return nullptr;
-  for (const Claim& claim : result.certificate->claims) {
+  for (const Claim& claim : result.certificate->claims)
     if (claim.name == name) return &claim;
-  }
   return nullptr;
 }
 
@@ -45,9 +44,7 @@ void expect_sound(PlantedProblem& planted, const TuningOptions& options, const T
     ASSERT_FALSE(result.point.empty()) << seen;
     EXPECT_TRUE(planted.matches(result.point)) << seen;
   }
-  if (is_certified(result, "C0")) {
-    EXPECT_TRUE(planted.matches(result.point)) << seen;
-  }
+  if (is_certified(result, "C0")) EXPECT_TRUE(planted.matches(result.point)) << seen;
   if (result.status != TuningStatus::certified) return;
   // C1 and C2 by the problem itself, not by what the tuner has on record.
   for (std::size_t j = 0; j < result.point.size(); ++j) {

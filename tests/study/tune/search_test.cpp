@@ -118,9 +118,7 @@ TEST(WindowScan, Bounds_every_function_within_the_slopes_from_below) {
   std::uniform_real_distribution<double> slope(-kSteepestFall, kSteepestRise);
   for (int i = 0; i < 500; ++i) {
     std::vector<double> f = {1.0};
-    for (int j = 0; j < 10; ++j) {
-      f.push_back(f.back() + 0.1 * slope(generator));
-    }
+    for (int j = 0; j < 10; ++j) f.push_back(f.back() + 0.1 * slope(generator));
     const IntervalBound bound = bound_between(1.0, f.front(), 10.0, f.back());
     EXPECT_LE(bound.log_ratio, *std::min_element(f.begin(), f.end()) + 1e-12);
     EXPECT_GT(bound.value, 1.0);

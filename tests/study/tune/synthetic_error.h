@@ -75,9 +75,7 @@ class SyntheticError {
     const double c = request.x.front();
     const double h = step * request.step_factor;
     Answer result{id, cause(c, h), {}, {}, std::sqrt(c) * h, limit_scale / std::sqrt(c), h};
-    if (h > result.step_limit) {
-      result.status = Cause::diverged;
-    }
+    if (h > result.step_limit) result.status = Cause::diverged;
     const double factor = std::pow(10.0, disturbance(c, h));
     for (const Term& term : terms) {
       result.errors.push_back(factor * (term.soft / c + term.coarse * c * c * std::pow(h, 4.0)));

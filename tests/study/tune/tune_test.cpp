@@ -129,9 +129,7 @@ TEST(Tune, Asks_for_a_higher_range_where_every_point_is_too_soft) {
   EXPECT_EQ(result.status, TuningStatus::infeasible);
   EXPECT_NE(result.reason.find("raise its end above 5e+09 N/m"), std::string::npos)
       << result.reason;
-  for (const ScanPoint& point : result.points) {
-    EXPECT_EQ(point.side, Side::too_soft) << point.value;
-  }
+  for (const ScanPoint& point : result.points) EXPECT_EQ(point.side, Side::too_soft) << point.value;
 }
 
 // The smallest error is 1.5 A / c = 30 times the tolerance, from where it rises: a higher end alone
@@ -369,9 +367,7 @@ TEST(Tune, Lets_an_exception_of_the_evaluations_through) {
     SyntheticError model;
     const auto good = model.evaluator();
     const EvaluateBatch throwing = [&](const std::vector<Request>& requests) {
-      if (model.asked.size() + requests.size() > limit) {
-        throw std::domain_error("interrupted");
-      }
+      if (model.asked.size() + requests.size() > limit) throw std::domain_error("interrupted");
       return good(requests);
     };
     EXPECT_THROW(tune(model.problem(), {}, throwing), std::domain_error) << limit;

@@ -107,9 +107,7 @@ TEST(TuningTables, Have_legal_names_and_columns_of_one_length) {
       EXPECT_TRUE(is_legal(table.name));
       names.insert(table.name);
       EXPECT_NO_THROW(row_count(table)) << table.name;
-      for (const Column& column : table.columns) {
-        EXPECT_TRUE(is_legal(column.name)) << column.name;
-      }
+      for (const Column& column : table.columns) EXPECT_TRUE(is_legal(column.name)) << column.name;
     }
     EXPECT_EQ(names, (std::set<std::string>{"certificate", "components", "evaluations", "result",
                                             "scan"}));
@@ -122,9 +120,7 @@ TEST(TuningTables, Hold_every_evaluation_in_the_order_asked) {
   ASSERT_EQ(table.name, "evaluations");
   const auto& ids = std::get<std::vector<std::int64_t>>(table.columns.front().values);
   ASSERT_EQ(ids.size(), result.observations.size());
-  for (std::size_t i = 0; i < ids.size(); ++i) {
-    EXPECT_EQ(ids[i], static_cast<std::int64_t>(i));
-  }
+  for (std::size_t i = 0; i < ids.size(); ++i) EXPECT_EQ(ids[i], static_cast<std::int64_t>(i));
 }
 
 }  // namespace

@@ -4,9 +4,7 @@
 #include "tests/study/store/sample/sample.h"
 
 int main(int argc, char** argv) {
-  if (argc != 3) {
-    return 2;
-  }
+  if (argc != 3) return 2;
   linkstudy::StudyResults begun;
   begun.description = linkstudy::sample::description();
   begun.input_sha256 = linkstudy::sample::kInputSha256;
