@@ -258,7 +258,9 @@ TEST(Lanes, A_lane_that_diverges_ends_as_it_would_alone_and_leaves_the_others) {
     EXPECT_LT(packed[1].outcome.steps, steps);
     for (std::size_t i = 0; i < packed.size(); ++i) {
       EXPECT_TRUE(same_run(packed[i], alone[i])) << name_of(level.isa) << " lane " << i;
-      if (i != 1) EXPECT_EQ(packed[i].outcome.cause, Cause::ok);
+      if (i != 1) {
+        EXPECT_EQ(packed[i].outcome.cause, Cause::ok);
+      }
     }
   }
 }

@@ -212,7 +212,9 @@ CONSTANT = re.compile(r"^(?:inline |static )*constexpr [^(={]*?(?P<name>\w+)(?:<
 
 
 def fits_on_one_line(head, body):
-    return len(f"{head} {body}") <= LINE_WIDTH
+    """Macros of tests have an else of their own, which a compiler warns of behind an if."""
+    is_macro = head.lstrip().startswith("if") and re.match(r"(EXPECT|ASSERT)_", body)
+    return not is_macro and len(f"{head} {body}") <= LINE_WIDTH
 
 
 def check_style(path, text):

@@ -181,7 +181,9 @@ TEST(RotationVectorSde, Joints_that_turn_freely_may_not_be_measured_so) {
     const bool sound = type == JointType::fixed || type == JointType::spherical;
     const std::vector<Problem> problems = check(linkage);
     EXPECT_EQ(problems.empty(), sound);
-    if (!sound && !problems.empty()) EXPECT_EQ(problems[0].path, "closure.B.sde.tilt");
+    if (!sound && !problems.empty()) {
+      EXPECT_EQ(problems[0].path, "closure.B.sde.tilt");
+    }
   }
 }
 

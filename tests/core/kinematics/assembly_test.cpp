@@ -222,7 +222,9 @@ TEST(Assembly, A_start_more_than_a_right_angle_off_closes_with_aligned_axes) {
         const Eigen::Quaterniond h(a.start.q[0], a.start.q[1], a.start.q[2], a.start.q[3]);
         const Eigen::Matrix3d r = h.toRotationMatrix();
         EXPECT_NEAR(r(0, 0), 1.0, 1e-12) << angle;
-        if (type == JointType::fixed) EXPECT_NEAR(r.trace(), 3.0, 1e-12) << angle;
+        if (type == JointType::fixed) {
+          EXPECT_NEAR(r.trace(), 3.0, 1e-12) << angle;
+        }
       }
     }
   }

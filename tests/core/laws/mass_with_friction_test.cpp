@@ -142,7 +142,9 @@ TEST(MassWithFriction, Pulled_by_a_spring_it_sticks_and_slips_with_the_period_of
     EXPECT_NEAR(s.end - s.begin, exact.time, 0.03);
     EXPECT_GT(s.fastest, 3.0 * kPull);
     EXPECT_LT(s.creep, 2e-5);  // sticks: four orders below the slip
-    if (k > 0) EXPECT_NEAR(s.begin - slips[k - 1].begin, exact.period, 0.03);
+    if (k > 0) {
+      EXPECT_NEAR(s.begin - slips[k - 1].begin, exact.period, 0.03);
+    }
   }
   EXPECT_NEAR(slips[0].begin, kStatic / (kSpring * kPull), 0.02 / (kSpring * kPull));
   const CoulombSlip ideal = coulomb_slip(kStatic);

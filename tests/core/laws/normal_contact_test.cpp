@@ -204,8 +204,12 @@ TEST(NormalContact, A_contact_never_pulls_and_apart_there_is_no_force) {
     } else {
       ASSERT_GE((printed.normal - f.normal) * rate, 0.0);
     }
-    if (depth <= 0.0) ASSERT_EQ(f.normal, 0.0);
-    if (rate > 0.0 && depth > 0.0) ASSERT_GE(f.normal, f.elastic);
+    if (depth <= 0.0) {
+      ASSERT_EQ(f.normal, 0.0);
+    }
+    if (rate > 0.0 && depth > 0.0) {
+      ASSERT_GE(f.normal, f.elastic);
+    }
     ASSERT_LE(f.normal, (1.0 + d) * f.elastic * (1.0 + 1e-15));
   }
 }

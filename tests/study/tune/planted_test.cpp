@@ -44,7 +44,9 @@ void expect_sound(PlantedProblem& planted, const TuningOptions& options, const T
     ASSERT_FALSE(result.point.empty()) << seen;
     EXPECT_TRUE(planted.matches(result.point)) << seen;
   }
-  if (is_certified(result, "C0")) EXPECT_TRUE(planted.matches(result.point)) << seen;
+  if (is_certified(result, "C0")) {
+    EXPECT_TRUE(planted.matches(result.point)) << seen;
+  }
   if (result.status != TuningStatus::certified) return;
   // C1 and C2 by the problem itself, not by what the tuner has on record.
   for (std::size_t j = 0; j < result.point.size(); ++j) {
