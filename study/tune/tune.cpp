@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "study/tune/find_window.h"
+#include "study/tune/lockstep.h"
 #include "study/tune/step_reach.h"
 #include "study/tune/tune_box.h"
 
@@ -86,15 +87,10 @@ class KnownAnswers {
  public:
   explicit KnownAnswers(const EvaluateBatch& evaluate) : evaluate_(evaluate) {}
 
-  std::vector<Answer> answer(std::vector<Request> requests, double step_factor) {
+  std::vector<Answer> answer(const std::vector<Request>& requests) {
     std::vector<Request> fresh;
-    for (Request& request : requests) {
-      request.step_factor *= step_factor;
-      if (known_.contains(key_of(request))) {
-        ++shared_;
-      } else {
-        fresh.push_back(request);
-      }
+    for (const Request& request : requests) {
+      if (!known_.contains(key_of(request))) fresh.push_back(request);
     }
     if (!fresh.empty()) {
       const std::vector<Answer> answers = evaluate_(fresh);
@@ -105,15 +101,12 @@ class KnownAnswers {
     return all;
   }
 
-  std::size_t shared() const { return shared_; }
-
  private:
   using Key = std::pair<std::vector<double>, double>;
   static Key key_of(const Request& request) { return {request.x, request.step_factor}; }
 
   const EvaluateBatch& evaluate_;
   std::map<Key, Answer> known_;
-  std::size_t shared_ = 0;
 };
 
 struct Search {
@@ -231,15 +224,22 @@ TuningResult tune(const TuningProblem& problem, const TuningOptions& options,
 
 std::vector<TuningResult> tune(const std::vector<TuningTarget>& targets,
                                const TuningOptions& options, const EvaluateBatch& evaluate) {
-  KnownAnswers known(evaluate);
-  std::vector<TuningResult> results;
-  for (const TuningTarget& target : targets) {
-    const std::size_t before = known.shared();
-    results.push_back(tune(target.problem, options, [&](const std::vector<Request>& requests) {
-      return known.answer(requests, target.step_factor);
-    }));
-    results.back().shared = known.shared() - before;
+  if (targets.size() == 1 && targets.front().step_factor == 1.0) {
+    return {tune(targets.front().problem, options, evaluate)};
   }
+  KnownAnswers known(evaluate);
+  std::vector<TuningResult> results(targets.size());
+  std::vector<LockstepSearch> searches;
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    searches.push_back([&, i](const EvaluateBatch& ask) {
+      const auto at_own_step = [&](std::vector<Request> requests) {
+        for (Request& request : requests) request.step_factor *= targets[i].step_factor;
+        return ask(requests);
+      };
+      results[i] = tune(targets[i].problem, options, at_own_step);
+    });
+  }
+  run_in_lockstep([&](const auto& requests) { return known.answer(requests); }, searches);
   return results;
 }
 

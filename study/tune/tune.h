@@ -18,7 +18,8 @@ namespace linkstudy::tuning {
 TuningResult tune(const TuningProblem& problem, const TuningOptions& options,
                   const EvaluateBatch& evaluate);
 
-// Several targets in their order; what an earlier one has asked is not asked again.
+// Several targets side by side (lockstep.h): each takes the way it takes alone, and what one has
+// asked is not asked again.
 std::vector<TuningResult> tune(const std::vector<TuningTarget>& targets,
                                const TuningOptions& options, const EvaluateBatch& evaluate);
 

@@ -66,7 +66,6 @@ struct TuningResult {
   std::vector<ScanPoint> points;          // every value tried at the base step, with its side
   std::vector<Observation> observations;  // every evaluation in the order asked
   std::size_t rounds = 0;                 // batches asked for
-  std::size_t shared = 0;                 // of the observations those that an earlier target asked
   std::vector<std::string> notes;         // what else the user should know
 };
 

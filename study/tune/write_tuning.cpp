@@ -314,14 +314,16 @@ Json make_json(const TuningResult& result) {
 }
 
 std::size_t count_own(const std::vector<TuningResult>& results) {
-  std::size_t count = 0;
-  for (const TuningResult& one : results) count += one.observations.size() - one.shared;
-  return count;
+  std::set<std::uint64_t> ids;  // several may have asked for one evaluation
+  for (const TuningResult& one : results) {
+    for (const Observation& seen : one.observations) ids.insert(seen.answer.id);
+  }
+  return ids.size();
 }
 
 std::size_t count_rounds(const std::vector<TuningResult>& results) {
-  std::size_t count = 0;
-  for (const TuningResult& one : results) count += one.rounds;
+  std::size_t count = 0;  // side by side
+  for (const TuningResult& one : results) count = std::max(count, one.rounds);
   return count;
 }
 
