@@ -31,9 +31,8 @@ class Export : public Program {
 
   std::vector<std::string> names_in(const std::string& results) const {
     std::vector<std::string> names;
-    for (const json& row : json::parse(table(results + " --list --format json"))["rows"]) {
-      names.push_back(row["table"]);
-    }
+    const json list = json::parse(table(results + " --list --format json"));
+    for (const json& row : list["rows"]) names.push_back(row["table"]);
     return names;
   }
 
