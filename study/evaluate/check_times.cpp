@@ -64,24 +64,22 @@ class TimesCheck {
     for (const TuneInput& tune : input_.tune) {
       point.push_back(make_override(tune.parameter.path, tune.low));
     }
-    std::vector<std::vector<Override>> points = {point};
+    std::vector<std::vector<Override>> points;
+    const auto add = [&](double step, const Location& at) {
+      points.push_back(point);
+      points.back().push_back(make_override(kStepPath, step));
+      points.back().back().value.at = at;
+    };
+    for (const double step : input_.search.steps) {
+      const Location at = locate(input_.resolved, "search.steps");
+      add(step, at);
+      add(step / 2.0, at);
+    }
+    if (!points.empty()) return points;
+    points = {point};
     Diagnostics said_before;
     const auto model = input_.model->with(case_overrides(input_, {}, point), said_before);
-    if (!model) return points;
-    std::vector<double> steps = input_.search.steps;
-    if (steps.empty()) {
-      steps = {model->options.step};
-    } else {
-      points.clear();
-    }
-    point.emplace_back();
-    for (const double step : steps) {
-      for (const double one : {step, step / 2.0}) {
-        point.back() = make_override(kStepPath, one);
-        point.back().value.at = locate(input_.resolved, "search.steps");
-        points.push_back(point);
-      }
-    }
+    if (model) add(model->options.step / 2.0, {});
     return points;
   }
 

@@ -60,11 +60,12 @@ class Layouts {
   // The least number of ranks that nothing beats.
   int useful_ranks() const {
     const std::vector<int> tried = list_ranks();
-    double best = most(tried.front()).wall_s;
-    for (const int ranks : tried) best = std::min(best, most(ranks).wall_s);
-    for (const int ranks : tried)
-      if (most(ranks).wall_s <= best * kNoShorter) return ranks;
-    return tried.back();
+    std::vector<double> wall_s;
+    for (const int ranks : tried) wall_s.push_back(most(ranks).wall_s);
+    const double enough = *std::ranges::min_element(wall_s) * kNoShorter;
+    const auto first = std::ranges::find_if(wall_s, [&](double one) { return one <= enough; });
+    return first == wall_s.end() ? tried.back()
+                                 : tried[static_cast<std::size_t>(first - wall_s.begin())];
   }
 
  private:

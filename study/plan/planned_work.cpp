@@ -51,11 +51,13 @@ PlannedWork plan_tune(const Evaluator& evaluator) {
   work.certain_are = "the scan";
   work.most = most_tuning_evaluations(input);
   work.batch = input.search.batch;
+  const double base_step = base_step_of(input);
+  const tuning::TuningOptions options = make_tuning_options(input);
   std::set<double> steps;
   for (const tuning::TuningTarget& target : make_tuning_targets(evaluator)) {
-    const double step = base_step_of(input) * target.step_factor;
+    const double step = base_step * target.step_factor;
     if (!steps.insert(step).second) continue;  // its scan is known then
-    for (const std::vector<double>& values : scan_of(target, make_tuning_options(input))) {
+    for (const std::vector<double>& values : scan_of(target, options)) {
       Point& point = work.points.emplace_back();
       point.id = work.points.size() - 1;
       point.values.assign(values.begin(), values.end());

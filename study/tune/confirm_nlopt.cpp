@@ -216,17 +216,6 @@ Ending optimize(nlopt::opt& opt, const Run& run, const std::vector<double>& star
   return ending;
 }
 
-double objective_at(const EvaluationLog& log, const std::vector<double>& x) {
-  const Observation* seen = log.find(x, 1.0);
-  return compute_objective(log.problem(), x, seen == nullptr ? Answer{} : seen->answer);
-}
-
-// Decades; of a response a part of its size.
-double least_gain(const EvaluationLog& log, double objective) {
-  const double resolution = log.options().resolution;
-  return log.problem().response ? resolution * std::abs(objective) : resolution;
-}
-
 // Our own incumbent: the lowest feasible point among the start and what was seen since `first`.
 std::vector<double> find_lowest(const EvaluationLog& log, const std::vector<double>& start,
                                 std::size_t first) {
@@ -238,7 +227,7 @@ std::vector<double> find_lowest(const EvaluationLog& log, const std::vector<doub
     const Observation& seen = log.observations()[i];
     const bool is_feasible = compute_ratio(seen.answer, log.problem().components) <= 1.0;
     if (!is_feasible || seen.request.step_factor != 1.0) continue;
-    if (!is_feasible_yet || log.objective(seen) < objective_at(log, lowest)) {
+    if (!is_feasible_yet || log.objective(seen) < log.objective(lowest)) {
       lowest = seen.request.x;
       is_feasible_yet = true;
     }
@@ -256,8 +245,8 @@ std::string find_fault(const EvaluationLog& log, const Ending& ending,
   if (find_violation(seen->answer, log.problem().components) > slack) {
     return "it returned a point that does not match";
   }
-  const double least = objective_at(log, lowest);
-  if (objective_at(log, ending.x) > least + 2.0 * least_gain(log, least)) {
+  const double least = log.objective(lowest);
+  if (log.objective(ending.x) > least + 2.0 * log.least_gain(least)) {
     return "it returned a point above one that matches";
   }
   return {};
@@ -321,8 +310,8 @@ NloptReport confirm_with_nlopt(EvaluationLog& log, const std::vector<double>& st
   if (!report.verified && fault != ending.ended) report.ended += ", not verified: " + fault;
   report.evaluations = log.observations().size() - first;
   report.lowest = lowest.front();
-  const double least = objective_at(log, lowest);
-  report.found_lower = objective_at(log, start) - least > least_gain(log, least);
+  const double least = log.objective(lowest);
+  report.found_lower = log.objective(start) - least > log.least_gain(least);
   return report;
 }
 

@@ -73,6 +73,16 @@ double EvaluationLog::objective(const Observation& seen) const {
   return compute_objective(problem_, seen.request.x, seen.answer);
 }
 
+double EvaluationLog::objective(const std::vector<double>& x) const {
+  const Observation* seen = find(x, 1.0);
+  if (seen != nullptr) return objective(*seen);
+  return problem_.response ? kInfinity : compute_objective(problem_, x, {});
+}
+
+double EvaluationLog::least_gain(double objective) const {
+  return problem_.response ? options_.resolution * std::abs(objective) : options_.resolution;
+}
+
 std::size_t EvaluationLog::budget() const {
   return options_.max_evaluations.value_or(usual_budget(problem_.variables.size()));
 }

@@ -52,6 +52,9 @@ class EvaluationLog {
   const TuningOptions& options() const { return options_; }
   // What is minimised (tuning_problem.h).
   double objective(const Observation& seen) const;
+  double objective(const std::vector<double>& x) const;  // infinite where it is not known
+  // Less is no improvement: decades; of a response a part of its size.
+  double least_gain(double objective) const;
   std::size_t budget() const;
   std::size_t remaining() const { return budget() - observations_.size(); }
   std::size_t rounds() const { return rounds_; }

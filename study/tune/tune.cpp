@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <stdexcept>
 
 #include "study/tune/find_window.h"
 #include "study/tune/lockstep.h"
+#include "study/tune/polish_point.h"
 #include "study/tune/step_reach.h"
 #include "study/tune/tune_box.h"
 
@@ -81,33 +81,6 @@ void probe_lower_candidate(EvaluationLog& log, double value) {
     log.evaluate({{{*candidate}, 0.5, "half_step"}});
   }
 }
-
-// Answers by point and multiple of the base step, over all targets.
-class KnownAnswers {
- public:
-  explicit KnownAnswers(const EvaluateBatch& evaluate) : evaluate_(evaluate) {}
-
-  std::vector<Answer> answer(const std::vector<Request>& requests) {
-    std::vector<Request> fresh;
-    for (const Request& request : requests) {
-      if (!known_.contains(key_of(request))) fresh.push_back(request);
-    }
-    if (!fresh.empty()) {
-      const std::vector<Answer> answers = evaluate_(fresh);
-      for (std::size_t i = 0; i < fresh.size(); ++i) known_[key_of(fresh[i])] = answers.at(i);
-    }
-    std::vector<Answer> all;
-    for (const Request& request : requests) all.push_back(known_.at(key_of(request)));
-    return all;
-  }
-
- private:
-  using Key = std::pair<std::vector<double>, double>;
-  static Key key_of(const Request& request) { return {request.x, request.step_factor}; }
-
-  const EvaluateBatch& evaluate_;
-  std::map<Key, Answer> known_;
-};
 
 struct Search {
   double value = 0.0;
@@ -227,7 +200,11 @@ std::vector<TuningResult> tune(const std::vector<TuningTarget>& targets,
   if (targets.size() == 1 && targets.front().step_factor == 1.0) {
     return {tune(targets.front().problem, options, evaluate)};
   }
-  KnownAnswers known(evaluate);
+  TuningOptions of_all = options;
+  const std::size_t own = EvaluationLog(targets.front().problem, options, evaluate).budget();
+  of_all.max_evaluations = targets.size() * own;
+  of_all.batch = *of_all.max_evaluations;  // what all ask in a round is one
+  EvaluationLog known(targets.front().problem, of_all, evaluate);
   std::vector<TuningResult> results(targets.size());
   std::vector<LockstepSearch> searches;
   for (std::size_t i = 0; i < targets.size(); ++i) {
@@ -239,7 +216,7 @@ std::vector<TuningResult> tune(const std::vector<TuningTarget>& targets,
       results[i] = tune(targets[i].problem, options, at_own_step);
     });
   }
-  run_in_lockstep([&](const auto& requests) { return known.answer(requests); }, searches);
+  run_in_lockstep(ask_log(known), searches);
   return results;
 }
 

@@ -78,14 +78,9 @@ class BoxTuning {
                                          : polish_freely(log_, std::move(point), reserve_);
   }
 
-  double objective_at(const std::vector<double>& x) const {
-    return log_.objective(*log_.find(x, 1.0));
-  }
-
   bool improves() {
-    const double gain = objective_at(point_) - objective_at(settle_lowest(log_, 0).value());
-    const double size = log_.problem().response ? std::abs(objective_at(point_)) : 1.0;
-    return gain > log_.options().resolution * size;
+    const double own = log_.objective(point_);
+    return own - log_.objective(settle_lowest(log_, 0).value()) > log_.least_gain(own);
   }
 
   void gather_evidence() {
@@ -108,7 +103,7 @@ class BoxTuning {
     result_.answer = log_.find(point_, 1.0)->answer;
     result_.answer_value = point_.front();
     result_.binding = find_binding(result_.answer, log_.problem().components);
-    result_.objective = objective_at(point_);
+    result_.objective = log_.objective(point_);
     result_.windows = windows_;
     result_.window = windows_.front();
     result_.certificate = make_certificate(terms_, log_);

@@ -218,6 +218,13 @@ Json make_largest_step(const TuningResult& result) {
   return largest;
 }
 
+// By path; of no point: {}.
+Json parameters_at(const TuningResult& result, const std::vector<double>& x) {
+  Json parameters = Json::object();
+  for (std::size_t i = 0; i < x.size(); ++i) parameters[result.problem.variables[i].path] = x[i];
+  return parameters;
+}
+
 // What only several variables have.
 void add_box_keys(Json& json, const TuningResult& result) {
   if (result.problem.variables.size() == 1) return;
@@ -229,10 +236,7 @@ void add_box_keys(Json& json, const TuningResult& result) {
   for (const Observation& one : result.staircase) {
     Json step = {{"evaluation", one.answer.id},
                  {"objective", compute_objective(one.request.x)},
-                 {"parameters", Json::object()}};
-    for (std::size_t i = 0; i < one.request.x.size(); ++i) {
-      step["parameters"][result.problem.variables[i].path] = one.request.x[i];
-    }
+                 {"parameters", parameters_at(result, one.request.x)}};
     staircase.push_back(std::move(step));
   }
   json["windows"] = std::move(windows);
@@ -259,35 +263,7 @@ Json make_suggestion(const TuningResult& result) {
           {"message", suggestion.message}};
 }
 
-}  // namespace
-
-std::string write_text(const TuningResult& result) {
-  std::string text;
-  add_line(
-      text, "status",
-      std::string(name_of(result.status)) + (result.reason.empty() ? "" : ": " + result.reason));
-  add_point(text, result);
-  add_damping(text, result);
-  add_window(text, result);
-  add_answer(text, result);
-  add_first_failure(text, result);
-  if (result.window) add_line(text, "NLopt", describe_nlopt(result));
-  add_certificate(text, result);
-  add_staircase(text, result);
-  for (const std::string& note : result.notes) add_line(text, "note", note);
-  add_line(text, "cost",
-           fmt::format("{} evaluations in {} rounds", result.observations.size(), result.rounds));
-  add_points(text, result);
-  return text;
-}
-
-namespace {
-
 Json make_json(const TuningResult& result) {
-  Json parameters = Json::object();
-  for (std::size_t i = 0; i < result.point.size(); ++i) {
-    parameters[result.problem.variables[i].path] = result.point[i];
-  }
   Json errors = Json::object();
   for (std::size_t i = 0;
        i < std::min(result.answer.errors.size(), result.problem.components.size()); ++i) {
@@ -296,7 +272,7 @@ Json make_json(const TuningResult& result) {
   Json json = {
       {"status", name_of(result.status)},
       {"reason", result.reason},
-      {"parameters", parameters},
+      {"parameters", parameters_at(result, result.point)},
       {"derived", make_derived(result)},
       {"objective", result.point.empty() ? Json(nullptr) : json_number(shown_objective(result))},
       {"error", errors},
@@ -355,6 +331,26 @@ std::string describe_span(const TuningResult& result) {
 
 }  // namespace
 
+std::string write_text(const TuningResult& result) {
+  std::string text;
+  add_line(
+      text, "status",
+      std::string(name_of(result.status)) + (result.reason.empty() ? "" : ": " + result.reason));
+  add_point(text, result);
+  add_damping(text, result);
+  add_window(text, result);
+  add_answer(text, result);
+  add_first_failure(text, result);
+  if (result.window) add_line(text, "NLopt", describe_nlopt(result));
+  add_certificate(text, result);
+  add_staircase(text, result);
+  for (const std::string& note : result.notes) add_line(text, "note", note);
+  add_line(text, "cost",
+           fmt::format("{} evaluations in {} rounds", result.observations.size(), result.rounds));
+  add_points(text, result);
+  return text;
+}
+
 std::string write_json(const TuningResult& result, const std::string& digest) {
   Json json = make_json(result);
   json["digest"] = digest;
@@ -371,8 +367,9 @@ std::string write_json(const std::vector<TuningResult>& results, const std::stri
   }
   Json cheapest = Json::array();
   for (const TuningResult* one : find_cheapest(results)) {
-    cheapest.push_back({{"tolerance", tolerance_of(*one)}, {"step", step_of(*one)}});
-    cheapest.back()["parameters"] = make_json(*one)["parameters"];
+    cheapest.push_back({{"tolerance", tolerance_of(*one)},
+                        {"step", step_of(*one)},
+                        {"parameters", parameters_at(*one, one->point)}});
   }
   const Json json = {{"status", name_of(worst_of(results))}, {"answers", std::move(answers)},
                      {"cheapest", std::move(cheapest)},      {"evaluations", count_own(results)},

@@ -4,6 +4,7 @@
 
 #include "config_text.h"
 #include "study/config/study_input.h"
+#include "wrong_text.h"
 
 namespace linkstudy {
 namespace {
@@ -83,27 +84,15 @@ TEST(CalibrationFile, says_what_is_fitted_to_what) {
   EXPECT_EQ(20, input->fit.starts);
 }
 
-struct WrongCalibration {
-  const char* name;
-  const char* before;
-  const char* after;
-  const char* message;
-};
-
-class WrongCalibrations : public testing::TestWithParam<WrongCalibration> {};
+class WrongCalibrations : public testing::TestWithParam<test::WrongFile> {};
 
 TEST_P(WrongCalibrations, give_one_error_at_their_place) {
-  std::string text = kCalibration;
-  const std::string before = GetParam().before;
-  ASSERT_NE(std::string::npos, text.find(before));
-  text.replace(text.find(before), before.size(), GetParam().after);
-  Diagnostics diagnostics;
-  EXPECT_FALSE(read(text, diagnostics));
-  EXPECT_EQ(1u, diagnostics.size()) << to_string(diagnostics);
-  EXPECT_THAT(to_string(diagnostics), HasSubstr(GetParam().message));
+  test::expect_one_message(
+      kCalibration, GetParam(),
+      [](const std::string& text, Diagnostics& found) { return read(text, found).has_value(); });
 }
 
-const WrongCalibration kWrong[] = {
+const test::WrongFile kWrong[] = {
     {"path", "path = \"closure.S.sde.stiffness\"", "path = \"closure.S.sde.stifness\"",
      ":7:8: error: parameter names no value"},
     {"word", "path = \"closure.S.sde.damping\"\nfixed = \"60 N s/m\"",

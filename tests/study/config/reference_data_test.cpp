@@ -5,6 +5,7 @@
 #include "config_text.h"
 #include "study/config/measured_reader.h"
 #include "study/config/precedence.h"
+#include "wrong_text.h"
 
 namespace linkstudy {
 namespace {
@@ -79,27 +80,16 @@ TEST(ReferenceData, are_read_from_what_results_hold_of_them) {
               HasSubstr("results:6:8: error: the results do not hold the data 'force.csv'"));
 }
 
-struct WrongReference {
-  const char* name;
-  const char* before;
-  const char* after;
-  const char* message;
-};
-
-class WrongReferences : public testing::TestWithParam<WrongReference> {};
+class WrongReferences : public testing::TestWithParam<test::WrongFile> {};
 
 TEST_P(WrongReferences, give_one_error_at_their_place) {
-  std::string text = kMeasuredStudy;
-  const std::string before = GetParam().before;
-  ASSERT_NE(std::string::npos, text.find(before));
-  text.replace(text.find(before), before.size(), GetParam().after);
-  Diagnostics diagnostics;
-  EXPECT_FALSE(read_measured_study(text, diagnostics));
-  EXPECT_EQ(1u, diagnostics.size()) << to_string(diagnostics);
-  EXPECT_THAT(to_string(diagnostics), HasSubstr(GetParam().message));
+  test::expect_one_message(kMeasuredStudy, GetParam(),
+                           [](const std::string& text, Diagnostics& found) {
+                             return read_measured_study(text, found).has_value();
+                           });
 }
 
-const WrongReference kWrongReferences[] = {
+const test::WrongFile kWrongReferences[] = {
     {"run_and_data", "time_offset = \"3 ms\"", "set = { \"closure.S.model\" = \"cut\" }",
      ":8:9: error: a reference is a run, with model and set, or measured data"},
     {"model_and_data", "time_offset = \"3 ms\"", "model = \"rsrrp.toml\"",

@@ -52,4 +52,11 @@ void expect_one_error(const std::string& right, const Wrong& wrong) {
   EXPECT_EQ(found[0].file, "model.toml");
 }
 
+void expect_one_message(const std::string& right, const WrongFile& wrong, const ReadsText& reads) {
+  Diagnostics diagnostics;
+  EXPECT_FALSE(reads(replaced(right, wrong.before, wrong.after), diagnostics));
+  EXPECT_EQ(1u, diagnostics.size()) << to_string(diagnostics);
+  EXPECT_THAT(to_string(diagnostics), HasSubstr(wrong.message));
+}
+
 }  // namespace linkstudy::test

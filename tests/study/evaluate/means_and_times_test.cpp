@@ -2,76 +2,29 @@
 // cannot be seen where they look.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <stdlib.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 
+#include "falling_mass.h"
 #include "study/evaluate/check_times.h"
-#include "study/evaluate/evaluator.h"
 
 namespace linkstudy {
 namespace {
 
-namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
-constexpr double kGravity = 9.0;
 constexpr double kEnd = 2.0;  // s
 
-constexpr const char* kModel = R"(format = 1
-kind = "model"
-gravity = [0.0, 0.0, -9.0]
-[[link]]
-name = "b"
-mass = 1.0
-inertia = [0.01, 0.01, 0.01]
-[[joint]]
-name = "P"
-type = "prismatic"
-parent = "ground"
-child = "b"
-[simulation]
-end_time = 2.0
-step = 0.08
-)";
-
-class FallingMass : public ::testing::Test {
+class FallingMass : public FallingMassFolder {
  protected:
-  FallingMass() {
-    std::string pattern = (fs::temp_directory_path() / "linkstudy_means.XXXXXX").string();
-    directory_ = ::mkdtemp(pattern.data());
-    std::ofstream(directory_ / "model.toml") << kModel;
-  }
-  ~FallingMass() override { fs::remove_all(directory_); }
-
-  std::unique_ptr<Evaluator> make(const std::string& text) {
-    const std::string path = (directory_ / "study.toml").string();
-    std::ofstream(path) << "format = 1\nkind = \"study\"\nmodel = \"model.toml\"\n" << text;
-    std::optional<StudyInput> input = read_study(path, {}, diagnostics_);
-    if (!input) return nullptr;
-    std::vector<Parameter> parameters;
-    std::vector<Value> first;
-    for (const VaryInput& vary : input->vary) {
-      parameters.push_back(vary.parameter);
-      first.push_back(vary.values.front());
-    }
-    return Evaluator::make(std::move(*input), parameters, first, diagnostics_);
-  }
-
-  std::vector<double> evaluate(Evaluator& evaluator, double step) {
-    const Point point{0, {step}};
-    return evaluator.evaluate({&point, 1}).at(0).responses;
+  static std::vector<double> evaluate(Evaluator& evaluator, double step) {
+    return FallingMassFolder::evaluate(evaluator, step).responses;
   }
 
   std::string said(const std::string& text) {
     EXPECT_FALSE(make(text)) << text;
     return to_string(diagnostics_);
   }
-
-  fs::path directory_;
-  Diagnostics diagnostics_;
 };
 
 std::string steps(const std::string& values) {

@@ -2,68 +2,22 @@
 // instants between steps, and what cannot be compared.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <stdlib.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 
-#include "study/evaluate/evaluator.h"
+#include "falling_mass.h"
 
 namespace linkstudy {
 namespace {
 
-namespace fs = std::filesystem;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-constexpr double kG = 9.0;
-
-constexpr const char* kMass = R"(format = 1
-kind = "model"
-gravity = [0.0, 0.0, -9.0]
-[[link]]
-name = "b"
-mass = 1.0
-inertia = [0.01, 0.01, 0.01]
-[[joint]]
-name = "P"
-type = "prismatic"
-parent = "ground"
-child = "b"
-[simulation]
-end_time = 2.0
-step = 0.08
-)";
-
-class MeasuredFall : public ::testing::Test {
+class MeasuredFall : public FallingMassFolder {
  protected:
-  MeasuredFall() {
-    std::string pattern = (fs::temp_directory_path() / "linkstudy_fall.XXXXXX").string();
-    directory_ = ::mkdtemp(pattern.data());
-    write("model.toml", kMass);
-  }
-  ~MeasuredFall() override { fs::remove_all(directory_); }
-
-  void write(const std::string& name, const std::string& text) const {
-    std::ofstream(directory_ / name) << text;
-  }
-
   std::unique_ptr<Evaluator> make(const std::string& text) {
-    write("study.toml",
-          "format = 1\nkind = \"study\"\nmodel = \"model.toml\"\n"
-          "vary = [{ parameter = \"simulation.step\", values = [0.08, 0.04, 0.02] }]\n" +
-              text);
-    std::optional<StudyInput> input =
-        read_study((directory_ / "study.toml").string(), {}, diagnostics_);
-    if (!input) return nullptr;
-    const std::vector<Parameter> parameters = {input->vary.front().parameter};
-    return Evaluator::make(std::move(*input), parameters, {0.08}, diagnostics_);
-  }
-
-  Evaluation evaluate(Evaluator& evaluator, double step) {
-    const Point point{0, {step}};
-    return evaluator.evaluate({&point, 1}).at(0);
+    return FallingMassFolder::make(
+        "vary = [{ parameter = \"simulation.step\", values = [0.08, 0.04, 0.02] }]\n" + text);
   }
 
   std::string said(const std::string& text) {
@@ -71,9 +25,6 @@ class MeasuredFall : public ::testing::Test {
     EXPECT_FALSE(make(text)) << text;
     return to_string(diagnostics_);
   }
-
-  fs::path directory_;
-  Diagnostics diagnostics_;
 };
 
 std::string match(const char* signal, const char* more = "") {
@@ -105,13 +56,14 @@ TEST_F(MeasuredFall, Differs_by_what_was_added_to_its_speed_in_the_units_of_the_
 
 // The path is a parabola: halfway between two steps the line is g h^2 / 8 off.
 TEST_F(MeasuredFall, Takes_a_curve_between_steps_from_the_line_between_them) {
-  write("q.csv", fmt::format("t;q [m]\n0.6;{:.17g}\n0.68;{:.17g}\n", -kG * 0.18, -kG * 0.2312));
+  write("q.csv",
+        fmt::format("t;q [m]\n0.6;{:.17g}\n0.68;{:.17g}\n", -kGravity * 0.18, -kGravity * 0.2312));
   const auto evaluator = make(
       "reference = { file = \"q.csv\", columns = { time = \"t\", \"joint.P.q\" = \"q [m]\" } }\n" +
       match("joint.P.q"));
   ASSERT_TRUE(evaluator) << to_string(diagnostics_);
-  const double scale = kG * 0.2312;
-  EXPECT_NEAR(kG * 0.08 * 0.08 / 8.0 / scale, evaluate(*evaluator, 0.08).responses[0], 1e-12);
+  const double scale = kGravity * 0.2312;
+  EXPECT_NEAR(kGravity * 0.08 * 0.08 / 8.0 / scale, evaluate(*evaluator, 0.08).responses[0], 1e-12);
   EXPECT_NEAR(0.0, evaluate(*evaluator, 0.04).responses[0], 1e-12);  // both are steps
 }
 
