@@ -5,7 +5,7 @@
 
 #include "tests/cli/program.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::bad_input_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -229,4 +229,4 @@ TEST_F(BadUse, A_full_standard_output_is_an_error) {
 }
 
 }  // namespace
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::bad_input_test

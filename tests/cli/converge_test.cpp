@@ -8,7 +8,7 @@
 
 #include "tests/cli/program.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::converge_test {
 namespace {
 
 using nlohmann::json;
@@ -267,4 +267,4 @@ TEST_F(Converge, Wrong_refinements_are_located) {
 }
 
 }  // namespace
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::converge_test

@@ -5,7 +5,7 @@
 
 #include "tests/cli/program.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::effects_test {
 namespace {
 
 using nlohmann::json;
@@ -116,4 +116,4 @@ TEST_F(Effects, What_a_start_leaves_of_a_velocity_is_said_once_by_a_study_and_by
 }
 
 }  // namespace
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::effects_test

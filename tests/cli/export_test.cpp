@@ -10,7 +10,7 @@
 #include "tests/cli/program.h"
 #include "tests/support/source_file.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::export_test {
 namespace {
 
 using nlohmann::json;
@@ -191,4 +191,4 @@ TEST_F(Export, Summary_of_the_stiffness_ladder_is_what_the_README_shows) {
 }
 
 }  // namespace
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::export_test

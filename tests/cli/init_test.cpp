@@ -9,7 +9,7 @@
 
 #include "tests/cli/program.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::init_test {
 namespace {
 
 using ::testing::AnyOf;
@@ -149,4 +149,4 @@ TEST_F(Init, What_it_cannot_do_is_a_usage_error) {
 }
 
 }  // namespace
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::init_test

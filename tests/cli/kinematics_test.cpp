@@ -10,7 +10,7 @@
 #include "tests/cli/program.h"
 #include "tests/support/source_file.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::kinematics_test {
 namespace {
 
 using nlohmann::json;
@@ -385,4 +385,4 @@ TEST_F(Kinematics, Refuses_wrong_options) {
 }
 
 }  // namespace
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::kinematics_test

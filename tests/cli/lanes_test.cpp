@@ -10,7 +10,7 @@
 #include "study/store/results_file.h"
 #include "tests/cli/program.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::lanes_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -161,4 +161,4 @@ TEST_F(Lanes, Share_their_time_among_evaluations_that_are_journalled_each) {
 }
 
 }  // namespace
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::lanes_test

@@ -9,7 +9,7 @@
 #include "tests/cli/program.h"
 #include "tests/support/source_file.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::plan_test {
 namespace {
 
 using nlohmann::json;
@@ -185,4 +185,4 @@ TEST_F(Forecast, Of_chosen_steps_in_two_load_cases_and_four_structures) {
 }
 
 }  // namespace
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::plan_test

@@ -11,7 +11,7 @@
 #include "tests/cli/program.h"
 #include "tests/support/rsrrp_text.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::reference_data_test {
 namespace {
 
 using nlohmann::json;
@@ -196,4 +196,4 @@ TEST_F(ReferenceFile, Is_part_of_the_input_and_the_same_on_two_ranks) {
 }
 
 }  // namespace
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::reference_data_test

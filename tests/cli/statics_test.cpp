@@ -7,7 +7,7 @@
 
 #include "tests/cli/program.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::statics_test {
 namespace {
 
 using nlohmann::json;
@@ -260,4 +260,4 @@ reduce = "mean"
 }
 
 }  // namespace
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::statics_test

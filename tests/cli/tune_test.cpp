@@ -5,7 +5,7 @@
 
 #include "tests/cli/program.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::tune_test {
 namespace {
 
 using nlohmann::json;
@@ -135,4 +135,4 @@ TEST_F(TuneFile, Wrong_lists_limits_and_objectives_are_located) {
 }
 
 }  // namespace
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::tune_test

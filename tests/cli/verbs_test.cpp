@@ -10,7 +10,7 @@
 #include "tests/cli/program.h"
 #include "tests/support/source_file.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::verbs_test {
 namespace {
 
 using nlohmann::json;
@@ -334,4 +334,4 @@ start = "given"
 }
 
 }  // namespace
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::verbs_test

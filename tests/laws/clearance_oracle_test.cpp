@@ -11,7 +11,7 @@
 #include "tests/support/random.h"
 #include "tests/support/trace_formulas.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::clearance_oracle_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -93,4 +93,4 @@ TEST(ClearanceOracle, Forces_and_accelerations_are_those_of_the_transcription) {
   EXPECT_LT(touching, 23);  // and some are apart
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::clearance_oracle_test

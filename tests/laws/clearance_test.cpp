@@ -12,7 +12,7 @@
 #include "tests/support/near.h"
 #include "tests/support/random.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::clearance_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -321,4 +321,4 @@ TEST(Clearance, Friction_brakes_a_journal_that_turns_under_its_weight) {
   }
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::clearance_test

@@ -12,7 +12,7 @@
 #include "tests/mechanisms/spatial_slider_crank.h"
 #include "tests/support/near.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::driven_motion_test {
 namespace {
 
 constexpr double kSpeed = 7.0;  // rad/s, of the crank
@@ -59,4 +59,4 @@ TEST(DrivenMotion, Has_the_accelerations_of_a_forced_run) {
 }
 
 }  // namespace
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::driven_motion_test

@@ -12,7 +12,7 @@
 #include "tests/support/trace_formulas.h"
 #include "tests/support/zyx_equivalent.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::equations_of_motion_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -234,4 +234,4 @@ TEST(EquationsOfMotion, Two_closures_of_different_models_share_a_linkage) {
   }
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::equations_of_motion_test

@@ -12,7 +12,7 @@
 #include "tests/support/engine_probe.h"
 #include "tests/support/near.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::flexible_links_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -187,4 +187,4 @@ TEST(FlexibleLinks, A_start_is_closed_by_joints_and_not_by_bending_links) {
   EXPECT_EQ(elements, 4);
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::flexible_links_test

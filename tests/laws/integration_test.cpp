@@ -17,7 +17,7 @@
 #include "tests/support/trace_formulas.h"
 #include "tests/support/zyx_equivalent.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::integration_test {
 namespace {
 
 Linkage softened(Linkage linkage) {  // stable and accurate at h = 1e-3
@@ -225,4 +225,4 @@ TEST(RedundantRows, A_repeated_closure_shares_the_force_and_leaves_the_motion_al
   }
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::integration_test

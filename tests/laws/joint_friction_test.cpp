@@ -10,7 +10,7 @@
 #include "tests/mechanisms/rsrrp.h"
 #include "tests/support/engine_probe.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::joint_friction_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -238,4 +238,4 @@ TEST(Joint_spring, A_turning_mass_swings_about_the_rest_angle_and_loses_what_the
   EXPECT_NEAR(samples.values(1, 2), 0.0, 1e-10);
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::joint_friction_test

@@ -8,7 +8,7 @@
 #include "tests/mechanisms/four_bar.h"
 #include "tests/support/engine_probe.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::orientation_test {
 namespace {
 
 void turn_end(const Eigen::Matrix3d& r, ClosureEnd& end) {
@@ -60,4 +60,4 @@ TEST(Orientation, Redundant_multipliers_turn_with_the_linkage) {
   }
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::orientation_test

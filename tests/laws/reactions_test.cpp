@@ -14,7 +14,7 @@
 #include "tests/support/trace_formulas.h"
 #include "tests/support/zyx_equivalent.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::reactions_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -198,4 +198,4 @@ TEST(Reactions, A_pendulum_pulls_with_weight_and_centrifugal_force) {
                             Vector3d(-2.0 * (9.81 + 9.0 * 0.5), 0, 0), 1e-13));
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::reactions_test

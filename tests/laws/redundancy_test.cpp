@@ -12,7 +12,7 @@
 #include "tests/support/engine_probe.h"
 #include "tests/support/near.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::redundancy_test {
 namespace {
 
 Linkage stabilized(Linkage linkage, Stabilization stabilization) {
@@ -173,4 +173,4 @@ TEST(Redundancy, Multipliers_do_not_depend_on_the_unit_of_mass) {
   }
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::redundancy_test

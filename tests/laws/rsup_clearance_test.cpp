@@ -12,7 +12,7 @@
 #include "tests/support/engine_probe.h"
 #include "tests/support/free_bodies.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::rsup_clearance_test {
 namespace {
 
 using Eigen::Index;
@@ -36,7 +36,8 @@ double steel_stiffness() {
 
 // Where the axis of the journal pierces the plane across the bearing's axis, `offset` along that
 // axis from the bearing's middle: distance from the axis, m. From the poses of coupler and yoke.
-double off_axis(const Linkage& linkage, const std::vector<LinkMotion>& motions, double offset) {
+double distance_off_axis(const Linkage& linkage, const std::vector<LinkMotion>& motions,
+                         double offset) {
   const Closure& pin = linkage.closures[0];
   const auto& coupler = motion_of(motions, pin.first.link);
   const auto& yoke = motion_of(motions, pin.second.link);
@@ -56,7 +57,7 @@ struct PinSamples {
   Index rows() const { return samples.values.rows(); }
   double off_axis(Index row, double offset) const {
     const Vector q = samples.values.row(row).head(6), none = Vector::Zero(6);
-    return testing::off_axis(linkage, link_motions(linkage, q, none, none), offset);
+    return distance_off_axis(linkage, link_motions(linkage, q, none, none), offset);
   }
   // Over all samples and contacts.
   double deepest() const { return samples.values.middleCols(6, contacts).maxCoeff(); }
@@ -236,4 +237,4 @@ TEST(LooseSliderCrank, Its_spatial_clearance_moves_it_as_the_planar_one) {
   for (const Samples& s : samples) EXPECT_LT(s.values.rightCols(3).cwiseAbs().maxCoeff(), 1e-9);
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::rsup_clearance_test

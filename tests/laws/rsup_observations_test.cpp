@@ -8,7 +8,7 @@
 #include "tests/mechanisms/rsup.h"
 #include "tests/support/engine_probe.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::rsup_observations_test {
 namespace {
 
 using Eigen::Index;
@@ -212,4 +212,4 @@ TEST(RsupIntegrators, Adaptive_steps_reach_the_accuracy_of_fixed_ones_with_a_ten
   EXPECT_LT(static_cast<double>(adaptive.outcome.evaluations), 0.1 * fixed_steps);
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::rsup_observations_test

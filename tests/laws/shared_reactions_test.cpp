@@ -16,7 +16,7 @@
 #include "tests/support/same_bits.h"
 #include "tests/support/trace_model.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::shared_reactions_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -475,4 +475,4 @@ TEST(SharedReactions, The_warning_says_which_way_was_taken) {
   }
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::shared_reactions_test

@@ -10,7 +10,7 @@
 #include "tests/support/near.h"
 #include "tests/support/newton_euler_check.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::topologies_test {
 namespace {
 
 using Eigen::Index;
@@ -99,4 +99,4 @@ TEST(Topologies, Closed_tree_of_twin_loops_moves_alike_and_loads_its_crank_with_
   EXPECT_GT(first.col(9).cwiseAbs().maxCoeff(), 0.1) << "its drive";
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::topologies_test

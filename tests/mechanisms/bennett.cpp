@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "tests/mechanisms/frames.h"
+#include "tests/mechanisms/joint_at.h"
 
 namespace linkstudy::testing {
 namespace {
@@ -21,18 +22,6 @@ Frame along(double length, double twist) {
 }
 Frame back(double length, double twist) {
   return {rotation_about(0, -twist), Vector3d(-length, 0, 0)};
-}
-
-Joint pivot(const std::string& name, const std::string& parent, const std::string& child,
-            const Frame& frame, double angle, double rate) {
-  Joint joint;
-  joint.name = name;
-  joint.parent = parent;
-  joint.child = child;
-  joint.frame = frame;
-  joint.position = {angle};
-  joint.velocity = {rate};
-  return joint;
 }
 
 Frame as_closure_axis(Frame frame) {
@@ -55,9 +44,9 @@ Linkage bennett(const BennettGeometry& g) {
   linkage.name = "bennett";
   linkage.gravity = Vector3d(0, -9.81, 0);
   linkage.links = {rod("crank", 1.0, g.a), rod("coupler", 1.5, b), rod("follower", 1.0, -g.a)};
-  linkage.joints = {pivot("A", kGround, "crank", {}, g.crank, g.rate),
-                    pivot("B", "crank", "coupler", along(g.a, g.alpha), second, second_rate),
-                    pivot("D", kGround, "follower", back(b, g.beta), second, second_rate)};
+  linkage.joints = {pivot_at("A", kGround, "crank", {}, g.crank, g.rate),
+                    pivot_at("B", "crank", "coupler", along(g.a, g.alpha), second, second_rate),
+                    pivot_at("D", kGround, "follower", back(b, g.beta), second, second_rate)};
   Closure C;
   C.name = "C";
   C.type = JointType::revolute;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "tests/mechanisms/frames.h"
+#include "tests/mechanisms/joint_at.h"
 
 namespace linkstudy::testing {
 namespace {
@@ -13,18 +14,6 @@ using Eigen::Vector3d;
 Link slender_rod(const std::string& name, double mass, double length) {
   const double J = mass * length * length / 12.0;
   return {name, mass, Vector3d(length / 2, 0, 0), Vector3d(1e-6, J, J).asDiagonal()};
-}
-
-Joint pivot(const std::string& name, const std::string& parent, const std::string& child, double x,
-            double angle, double rate) {
-  Joint joint;
-  joint.name = name;
-  joint.parent = parent;
-  joint.child = child;
-  joint.frame.position = Vector3d(x, 0, 0);
-  joint.position = {angle};
-  joint.velocity = {rate};
-  return joint;
 }
 
 }  // namespace
@@ -55,10 +44,11 @@ Linkage four_bar(const FourBarGeometry& g) {
   linkage.gravity = Vector3d(0, -9.81, 0);
   linkage.links = {slender_rod("crank", 0.5, g.crank), slender_rod("coupler", 1.2, g.coupler),
                    slender_rod("rocker", 1.0, g.rocker)};
-  linkage.joints = {pivot("A", kGround, "crank", 0.0, pose.crank, pose.crank_rate),
-                    pivot("B", "crank", "coupler", g.crank, pose.coupler - pose.crank,
-                          pose.coupler_rate - pose.crank_rate),
-                    pivot("D", kGround, "rocker", g.ground, pose.rocker, pose.rocker_rate)};
+  linkage.joints = {
+      pivot_at("A", kGround, "crank", along_x(0.0), pose.crank, pose.crank_rate),
+      pivot_at("B", "crank", "coupler", along_x(g.crank), pose.coupler - pose.crank,
+               pose.coupler_rate - pose.crank_rate),
+      pivot_at("D", kGround, "rocker", along_x(g.ground), pose.rocker, pose.rocker_rate)};
   Closure C;
   C.name = "C";
   C.type = JointType::revolute;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tests/mechanisms/frames.h"
+#include "tests/mechanisms/joint_at.h"
 
 namespace linkstudy::testing {
 namespace {
@@ -15,18 +16,6 @@ constexpr double kGravity = 9.81;
 
 Link unit_rod(const std::string& name) {
   return {name, 1.0, Vector3d(0.5, 0, 0), Vector3d(1e-6, 1.0 / 12, 1.0 / 12).asDiagonal()};
-}
-
-Joint pivot(const std::string& name, const std::string& parent, const std::string& child, double x,
-            double angle, double rate) {
-  Joint joint;
-  joint.name = name;
-  joint.parent = parent;
-  joint.child = child;
-  joint.frame.position = Vector3d(x, 0, 0);
-  joint.position = {angle};
-  joint.velocity = {rate};
-  return joint;
 }
 
 Closure corner(int k) {
@@ -49,13 +38,14 @@ Linkage n_four_bar(int loops) {
   for (int k = 0; k <= loops; ++k) {
     const std::string rod = fmt::format("rod{}", k);
     linkage.links.push_back(unit_rod(rod));
-    linkage.joints.push_back(pivot(fmt::format("A{}", k), kGround, rod, k, M_PI / 2, -1.0));
+    linkage.joints.push_back(
+        pivot_at(fmt::format("A{}", k), kGround, rod, along_x(k), M_PI / 2, -1.0));
   }
   for (int k = 1; k <= loops; ++k) {
     const std::string bar = fmt::format("bar{}", k);
     linkage.links.push_back(unit_rod(bar));
-    linkage.joints.push_back(
-        pivot(fmt::format("B{}", k), fmt::format("rod{}", k - 1), bar, 1.0, -M_PI / 2, 1.0));
+    linkage.joints.push_back(pivot_at(fmt::format("B{}", k), fmt::format("rod{}", k - 1), bar,
+                                      along_x(1.0), -M_PI / 2, 1.0));
     linkage.closures.push_back(corner(k));
   }
   return linkage;

@@ -13,7 +13,7 @@
 #include "tests/support/same_bits.h"
 #include "tests/support/simd_levels.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::lanes_test {
 namespace {
 
 // A case and everything that its run left.
@@ -290,4 +290,4 @@ TEST(Lanes, A_decaying_motion_ends_among_normal_numbers) {
   }
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::lanes_test

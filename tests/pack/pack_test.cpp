@@ -11,7 +11,7 @@
 #include "tests/pack/pack_probe_impl.h"
 #include "tests/support/random.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::pack_test {
 namespace {
 
 struct Probe {
@@ -243,4 +243,4 @@ TEST(SimdLevel, The_environment_chooses_set_and_lanes_or_is_refused) {
   }
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::pack_test

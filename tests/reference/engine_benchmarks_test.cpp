@@ -15,7 +15,7 @@
 #include "tests/support/random.h"
 #include "tests/support/source_file.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::engine_benchmarks_test {
 namespace {
 
 void expect_test_vector(ClosureModel model, const std::array<double, 4>& expected) {
@@ -150,4 +150,4 @@ TEST(EngineBenchmarks, The_spatial_slider_crank_follows_the_published_series_wit
   }
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::engine_benchmarks_test

@@ -13,7 +13,7 @@
 #include "tests/support/source_file.h"
 #include "tests/support/trace_formulas.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::oracle_benchmarks_test {
 
 TEST(OracleBenchmarks, The_pendulum_returns_after_its_period) {
   EXPECT_NEAR(pendulum_period(1.0, 9.81, M_PI / 2), kPendulumPeriod, 5e-10);
@@ -110,4 +110,4 @@ TEST(OracleBenchmarks, Both_cuts_of_the_spatial_slider_crank_move_alike) {
   EXPECT_NEAR(coarse / fine, 16.0, 2.0) << "they differ by the fourth order of the step only";
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::oracle_benchmarks_test

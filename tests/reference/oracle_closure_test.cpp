@@ -11,7 +11,7 @@
 #include "tests/support/near.h"
 #include "tests/support/trace_formulas.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::oracle_closure_test {
 namespace {
 
 const std::vector<JointType> kClosureTypes = {
@@ -303,4 +303,4 @@ TEST(OracleClosure, A_damping_ratio_follows_the_mass_it_moves) {
               1e-10);
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::oracle_closure_test

@@ -7,7 +7,7 @@
 #include "tests/mechanisms/rsrrp.h"
 #include "tests/support/trace_formulas.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::oracle_contact_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -179,4 +179,4 @@ TEST(OracleContact, Springs_and_dampers_of_joints_pull_towards_their_rest) {
               0.5 * 100 * 0.09 + 0.5 * 0.3 * 0.25, 1e-13);
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::oracle_contact_test

@@ -7,7 +7,7 @@
 #include "tests/mechanisms/rsrrp.h"
 #include "tests/support/trace_formulas.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::oracle_rsrrp_test {
 namespace {
 
 Vector after_one_second(ClosureModel model) {
@@ -57,4 +57,4 @@ TEST(OracleRsrrp, Both_cuts_of_the_linkage_start_closed_and_move_alike) {
   EXPECT_NEAR(S.q[2], R.q[5], 1e-9);
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::oracle_rsrrp_test

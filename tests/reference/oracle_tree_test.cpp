@@ -11,7 +11,7 @@
 #include "tests/support/trace_formulas.h"
 #include "tests/support/zyx_equivalent.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::oracle_tree_test {
 namespace {
 
 constexpr int kTrees = 40;
@@ -236,4 +236,4 @@ TEST(OracleTree, An_unloaded_tree_keeps_its_energy) {
   }
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::oracle_tree_test

@@ -9,7 +9,7 @@
 
 #include "tests/support/random.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::elementary_test {
 namespace {
 
 static_assert(std::numeric_limits<long double>::digits >= 64, "the reference needs guard bits");
@@ -186,4 +186,4 @@ TEST(Elementary, An_infinite_or_undefined_angle_gives_no_finite_number) {
   }
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::elementary_test

@@ -14,7 +14,7 @@
 #include "tests/support/engine_probe.h"
 #include "tests/support/near.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::rotation_vector_sde_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -187,4 +187,4 @@ TEST(RotationVectorSde, Joints_that_turn_freely_may_not_be_measured_so) {
   }
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::rotation_vector_sde_test

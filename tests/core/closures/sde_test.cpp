@@ -11,7 +11,7 @@
 #include "tests/support/engine_probe.h"
 #include "tests/support/near.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::sde_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -226,4 +226,4 @@ TEST(Sde, Each_force_pulls_the_first_link_towards_the_second) {
   EXPECT_NEAR(engine.at("joint.rail2.a"), -25.0, 1e-12);
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::sde_test

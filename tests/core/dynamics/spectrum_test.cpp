@@ -12,7 +12,7 @@
 #include "tests/mechanisms/rsrrp.h"
 #include "tests/support/engine_probe.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::spectrum_test {
 namespace {
 
 // Off its rest, where the element has a length.
@@ -222,4 +222,4 @@ TEST(StepLimit, The_replaced_linkage_runs_below_its_limit_and_fails_above) {
   EXPECT_TRUE(above.cause == Cause::diverged || above.cause == Cause::energy_blowup);
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::spectrum_test

@@ -18,7 +18,7 @@
 #include "tests/support/free_bodies.h"
 #include "tests/support/near.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::statics_reactions_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -260,4 +260,4 @@ TEST(StaticReactions, The_smallest_stiffness_has_the_unit_of_what_can_move) {
   EXPECT_NEAR(mixed.report.smallest_stiffness, 40.0 * 0.3 * 0.3, 1e-8);
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::statics_reactions_test

@@ -13,7 +13,7 @@
 #include "tests/support/engine_probe.h"
 #include "tests/support/near.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::statics_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -231,4 +231,4 @@ TEST(Statics, A_planar_four_bar_with_redundant_rows_finds_its_rest) {
   EXPECT_LT(e.report.closure_residual, 1e-9);
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::statics_test

@@ -10,7 +10,7 @@
 #include "core/flexible/rigid_finite_elements.h"
 #include "tests/mechanisms/cantilever.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::cantilever_modes_test {
 namespace {
 
 // Bending is ten times faster in the one plane than in the other, torsion is faster still: the four
@@ -135,4 +135,4 @@ TEST(CantileverModes, Damping_grows_with_the_frequency_of_the_mode) {
   }
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::cantilever_modes_test

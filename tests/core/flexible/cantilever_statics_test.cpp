@@ -10,7 +10,7 @@
 #include "tests/support/engine_probe.h"
 #include "tests/support/trace_kinematics.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::cantilever_statics_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -170,4 +170,4 @@ TEST(CantileverStatics, A_beam_held_at_its_end_bends_as_one_held_at_its_begin) {
   }
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::cantilever_statics_test

@@ -17,7 +17,7 @@
 #include "tests/support/random.h"
 #include "tests/support/trace_kinematics.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::rigid_finite_elements_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -272,4 +272,4 @@ TEST(Expansion, Mass_matrix_and_forces_on_the_joints_of_rigid_links_are_kept) {
   }
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::rigid_finite_elements_test

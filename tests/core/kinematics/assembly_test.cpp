@@ -18,7 +18,7 @@
 #include "tests/support/trace_formulas.h"
 #include "tests/support/zyx_equivalent.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::assembly_test {
 namespace {
 
 std::vector<Linkage> mechanisms() {
@@ -324,4 +324,4 @@ TEST(Assembly, A_closure_between_held_joints_fails_by_its_name) {
   EXPECT_NE(p.message.find("closure.C"), std::string::npos) << p.message;
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::assembly_test

@@ -12,7 +12,7 @@
 #include "tests/mechanisms/random_linkages.h"
 #include "tests/support/near.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::cut_joint_test {
 namespace {
 
 using Eigen::Vector4d;
@@ -163,4 +163,4 @@ TEST(CutJoint, Moves_one_frame_to_the_other) {
 }
 
 }  // namespace
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::cut_joint_test

@@ -13,7 +13,7 @@
 #include "tests/mechanisms/spatial_slider_crank.h"
 #include "tests/support/derivatives.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::drive_cycle_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -306,4 +306,4 @@ TEST(DriveCycle, Tells_the_ranks_where_branches_cross) {
 }
 
 }  // namespace
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::drive_cycle_test

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::drive_path_test {
 namespace {
 
 DriveCourse course_of(MotionLaw law) {
@@ -121,4 +121,4 @@ TEST(DrivePath, Straight_moves_all_drives_together) {
 }
 
 }  // namespace
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::drive_path_test

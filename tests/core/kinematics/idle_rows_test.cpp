@@ -8,7 +8,7 @@
 #include "tests/mechanisms/rsrrp.h"
 #include "tests/support/engine_probe.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::idle_rows_test {
 
 TEST(IdleRows, A_planar_loop_needs_neither_the_tilts_of_its_pin_nor_the_motion_along_it) {
   const std::vector<unsigned> idle = find_idle_directions(four_bar());
@@ -44,4 +44,4 @@ TEST(IdleRows, Without_them_motion_and_reactions_stay_what_they_are) {
   EXPECT_LT((all.values - few.values).cwiseAbs().maxCoeff(), 1e-9);
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::idle_rows_test

@@ -19,7 +19,7 @@
 #include "tests/support/near.h"
 #include "tests/support/random.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::loop_equations_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -271,4 +271,4 @@ TEST(ProperElements, Give_the_velocities_of_the_driven_linkage) {
 }
 
 }  // namespace
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::loop_equations_test

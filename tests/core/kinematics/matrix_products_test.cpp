@@ -19,7 +19,7 @@
 #include "tests/support/trace_formulas.h"
 #include "tests/support/zyx_equivalent.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::matrix_products_test {
 namespace {
 
 using Eigen::Matrix4d;
@@ -308,4 +308,4 @@ TEST(MatrixProducts, Give_velocities_and_accelerations_of_driven_linkages) {
   }
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::matrix_products_test

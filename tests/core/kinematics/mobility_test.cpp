@@ -12,7 +12,7 @@
 #include "tests/mechanisms/rsrrp.h"
 #include "tests/mechanisms/spatial_slider_crank.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::mobility_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -230,4 +230,4 @@ TEST(Mobility, Finds_the_idle_spin_of_a_strut_of_two_links) {
 }
 
 }  // namespace
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::mobility_test

@@ -8,7 +8,7 @@
 #include "tests/mechanisms/four_bar.h"
 #include "tests/mechanisms/placed_linkage.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::near_singular_test {
 namespace {
 
 using ::testing::Each;
@@ -292,4 +292,4 @@ TEST(NearSingular, The_worst_transmission_is_found_between_positions) {
 }
 
 }  // namespace
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::near_singular_test

@@ -13,7 +13,7 @@
 #include "tests/support/near.h"
 #include "tests/support/random.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::point_motion_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -123,4 +123,4 @@ TEST(PointMotion, Velocities_and_accelerations_are_differences_of_positions) {
   EXPECT_GT(tried, 5);
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::point_motion_test

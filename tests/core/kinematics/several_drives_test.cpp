@@ -11,7 +11,7 @@
 #include "tests/mechanisms/placed_linkage.h"
 #include "tests/support/derivatives.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::several_drives_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -200,4 +200,4 @@ TEST(SeveralDrives, Says_that_two_drives_of_one_freedom_contradict_each_other) {
 }
 
 }  // namespace
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::several_drives_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::course_test {
 
 TEST(Course, A_ramp_grows_in_proportion_to_time_and_then_stays) {
   EXPECT_DOUBLE_EQ(ramp_course(1.25, 1.0 / 5.0), 0.25);
@@ -45,4 +45,4 @@ TEST(Course, Resistances_have_the_sign_of_the_speed_and_their_value_at_the_named
   }
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::course_test

@@ -10,7 +10,7 @@
 #include "tests/support/fixed_step.h"
 #include "tests/support/random.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::lugre_friction_test {
 namespace {
 
 using Parameters = LugreParameters<double>;
@@ -212,4 +212,4 @@ TEST(LugreFriction, Lanes_of_a_pack_are_bristles_of_their_own) {
   }
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::lugre_friction_test

@@ -13,7 +13,7 @@
 #include "core/laws/lugre_friction.h"
 #include "tests/support/fixed_step.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::mass_with_friction_test {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
@@ -251,4 +251,4 @@ TEST(MassWithFriction, Slow_strokes_below_sliding_leave_the_hysteresis_loop_of_t
   }
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::mass_with_friction_test

@@ -13,7 +13,7 @@
 #include "tests/support/fixed_step.h"
 #include "tests/support/random.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::normal_contact_test {
 namespace {
 
 constexpr ContactLaw kLaws[] = {ContactLaw::lankarani_nikravesh, ContactLaw::flores,
@@ -291,4 +291,4 @@ TEST(NormalContact, Lanes_of_a_pack_are_contacts_of_their_own) {
   }
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::normal_contact_test

@@ -8,7 +8,7 @@
 
 #include "core/kinematics/forward_kinematics.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::compile_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -77,4 +77,4 @@ TEST(Compile, Turns_by_right_angles_are_quarter_turns_however_they_are_written) 
   }
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::compile_test

@@ -11,7 +11,7 @@
 #include "tests/mechanisms/four_bar.h"
 #include "tests/mechanisms/placed_linkage.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::loop_joints_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -120,4 +120,4 @@ TEST(LoopJoints, Runs_that_share_otherwise_do_not_share_a_step_loop) {
   EXPECT_TRUE(same_structure(with_loop_joints(linkage), with_loop_joints(linkage)));
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::loop_joints_test

@@ -5,7 +5,7 @@
 
 #include "core/model/mechanism.h"
 
-namespace linkstudy {
+namespace linkstudy::same_structure_test {
 namespace {
 
 // Something that any member can be made from, to count the members of an aggregate.
@@ -173,4 +173,4 @@ TEST(SameStructure, Leaves_names_and_chosen_points_aside) {
 }
 
 }  // namespace
-}  // namespace linkstudy
+}  // namespace linkstudy::same_structure_test

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::adaptive_integrator_test {
 namespace {
 
 constexpr AdaptiveMethod kMethods[] = {AdaptiveMethod::dormand_prince, AdaptiveMethod::rosenbrock};
@@ -309,4 +309,4 @@ TEST(AdaptiveIntegrator, Slopes_that_are_no_numbers_are_a_typed_failure) {
   }
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::adaptive_integrator_test

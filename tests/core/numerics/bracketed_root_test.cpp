@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::bracketed_root_test {
 
 TEST(BracketedRoot, It_is_found_to_rounding_with_the_signs_of_the_ends_kept) {
   int calls = 0;
@@ -39,4 +39,4 @@ TEST(BracketedRoot, A_zero_at_an_end_is_that_end_and_equal_signs_are_left_alone)
   EXPECT_EQ(none.second, 5.0);
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::bracketed_root_test

@@ -8,7 +8,7 @@
 #include "tests/support/near.h"
 #include "tests/support/random.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::definite_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -91,4 +91,4 @@ TEST(Definite, Dependent_vanishing_and_lost_rows_are_refused) {
   EXPECT_FALSE(solve(MatrixXd::Constant(2, 2, std::nan("")), b));
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::definite_test

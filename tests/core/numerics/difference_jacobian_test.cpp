@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::difference_jacobian_test {
 
 TEST(DifferenceJacobian, Columns_of_any_size_are_those_of_the_derivatives) {
   int calls = 0;
@@ -43,4 +43,4 @@ TEST(DifferenceJacobian, A_stiffness_that_grows_with_the_root_of_the_depth_is_me
   EXPECT_NEAR(j.by_unknown(0, 0) / (1.5e10 * std::sqrt(depth)), 1.0, 1e-4);
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::difference_jacobian_test

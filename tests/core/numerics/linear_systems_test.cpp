@@ -10,7 +10,7 @@
 #include "tests/support/near.h"
 #include "tests/support/random.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::linear_systems_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -137,4 +137,4 @@ TEST(Rank, The_null_space_is_orthonormal_and_mapped_to_zero) {
   EXPECT_EQ(null_space(MatrixXd(0, 3), 1e-9).cols(), 3);
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::linear_systems_test

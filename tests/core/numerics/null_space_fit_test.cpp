@@ -10,7 +10,7 @@
 #include "tests/support/near.h"
 #include "tests/support/random.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::null_space_fit_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -89,4 +89,4 @@ TEST(NullSpaceFit, A_change_without_effect_on_what_counts_is_not_made) {
   EXPECT_EQ(change_by_fit(p).norm(), 0.0);
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::null_space_fit_test

@@ -13,7 +13,7 @@
 #include "tests/support/near.h"
 #include "tests/support/random.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::redundant_system_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -228,4 +228,4 @@ TEST(RedundantSystem, Rows_that_all_vanish_carry_nothing) {
   EXPECT_EQ(solved(system, Eigen::Vector3d(1, 2, 3)), Eigen::Vector3d::Zero());
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::redundant_system_test

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::runge_kutta_test {
 namespace {
 
 // y' = y cos t, y(0) = 1: y = exp(sin t). Error at t = 2.
@@ -49,4 +49,4 @@ TEST(RungeKutta, A_cubic_course_is_integrated_exactly) {
   EXPECT_NEAR(y, std::pow(2.5, 4) - std::pow(0.5, 4) - 2.0, 1e-13);
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::runge_kutta_test

@@ -50,7 +50,7 @@ void operator delete[](void* p, std::size_t) noexcept {
   std::free(p);
 }
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::allocations_test {
 namespace {
 
 // Everything observers can ask for, sampled at every step.
@@ -130,4 +130,4 @@ TEST(Allocations, Sharing_redundant_reactions_allocates_no_more_with_ten_times_t
   }
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::allocations_test

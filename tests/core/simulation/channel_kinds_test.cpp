@@ -10,7 +10,7 @@
 #include "tests/mechanisms/rsrrp.h"
 #include "tests/support/free_bodies.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::channel_kinds_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -137,4 +137,4 @@ TEST(ChannelKinds, A_name_alone_is_the_group_of_everything_under_it) {
 }
 
 }  // namespace
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::channel_kinds_test

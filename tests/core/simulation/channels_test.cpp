@@ -13,7 +13,7 @@
 #include "tests/support/free_bodies.h"
 #include "tests/support/near.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::channels_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -220,4 +220,4 @@ TEST(Channels, A_linkage_moved_as_a_whole_changes_no_scalar_and_turns_its_vector
   expect_frame_invariance(rsrrp());
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::channels_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::contact_events_test {
 namespace {
 
 using Course = std::function<Nearness(double)>;
@@ -122,4 +122,4 @@ TEST(ContactEvents, Contacts_far_from_any_event_are_not_looked_at) {
   EXPECT_LT(looks, 25);
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::contact_events_test

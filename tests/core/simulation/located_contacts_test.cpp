@@ -11,7 +11,7 @@
 #include "tests/mechanisms/rsrrp.h"
 #include "tests/support/engine_probe.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::located_contacts_test {
 namespace {
 
 constexpr Integrator kAdaptive[] = {Integrator::adaptive, Integrator::stiff};
@@ -250,4 +250,4 @@ TEST(LocatedContacts, More_contacts_than_a_run_may_have_in_one_interval_end_it) 
   EXPECT_LT(end.end_time, 0.1);
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::located_contacts_test

@@ -17,7 +17,7 @@
 #include "tests/support/source_file.h"
 #include "tests/support/zyx_equivalent.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::located_run_test {
 namespace {
 
 constexpr Integrator kAdaptive[] = {Integrator::adaptive, Integrator::stiff};
@@ -232,4 +232,4 @@ TEST(LocatedRun, Cases_of_a_batch_are_what_they_are_alone) {
   EXPECT_NE(cases[0].outcome.steps, cases[1].outcome.steps);
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::located_run_test

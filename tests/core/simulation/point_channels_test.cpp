@@ -14,7 +14,7 @@
 #include "tests/support/engine_probe.h"
 #include "tests/support/near.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::point_channels_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -140,4 +140,4 @@ TEST(PointChannels, Accelerations_are_the_same_before_and_after_reactions) {
   EXPECT_TRUE(near_absolute(first.vector("joint.R.force"), force, 0.0));
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::point_channels_test

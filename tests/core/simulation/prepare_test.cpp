@@ -12,7 +12,7 @@
 #include "tests/mechanisms/rsrrp.h"
 #include "tests/support/engine_probe.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::prepare_test {
 namespace {
 
 // The revolute joint replaced, its second frame turned about the pin by some degrees.
@@ -84,4 +84,4 @@ TEST(Prepare, A_start_at_a_singular_position_is_told_from_redundant_joints) {
                               ::testing::HasSubstr("the start is a singular position: 1 of 5")));
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::prepare_test

@@ -11,7 +11,7 @@
 #include "tests/support/engine_probe.h"
 #include "tests/support/fixed_step.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::pushed_contact_test {
 namespace {
 
 constexpr double kRadial = 1e-3;          // m, of loose_bearing()
@@ -143,4 +143,4 @@ TEST(PushedContact, In_a_free_impact_both_speeds_are_the_same) {
   }
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::pushed_contact_test

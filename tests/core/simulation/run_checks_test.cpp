@@ -10,7 +10,7 @@
 #include "tests/mechanisms/pendulum.h"
 #include "tests/support/engine_probe.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::run_checks_test {
 namespace {
 
 // A pendulum of 2 kg and 1 m, let go horizontally: kinetic energy v^2, height -19.62 J hanging.
@@ -52,8 +52,6 @@ class PendulumChecks : public ::testing::Test {
 
 constexpr double kHanging = -1.5707963267948966;
 
-}  // namespace
-
 TEST_F(PendulumChecks, A_ledger_at_rest_may_be_off_by_a_thousandth_of_a_joule_a_kilogram) {
   EXPECT_TRUE(balances(0.0, 0.0447));  // 1.998 mJ
   EXPECT_FALSE(balances(0.0, 0.0448));
@@ -88,4 +86,5 @@ TEST_F(PendulumChecks, A_rank_counts_only_where_the_state_does) {
   EXPECT_EQ(told().greatest_rank, 5);
 }
 
-}  // namespace linkstudy::testing
+}  // namespace
+}  // namespace linkstudy::testing::run_checks_test

@@ -12,7 +12,7 @@
 #include "tests/mechanisms/rsrrp.h"
 #include "tests/support/engine_probe.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::simulate_test {
 namespace {
 
 Linkage replaced_rsrrp(double stiffness) {
@@ -193,4 +193,4 @@ TEST(Prepare, An_equilibrium_start_stays_where_it_is) {
   }
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::simulate_test

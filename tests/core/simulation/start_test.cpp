@@ -12,7 +12,7 @@
 #include "tests/mechanisms/rsrrp.h"
 #include "tests/support/engine_probe.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::start_test {
 namespace {
 
 using ::testing::Contains;
@@ -170,4 +170,4 @@ TEST(Start, Loads_of_the_equilibrium_are_those_of_the_time_asked_for) {
   }
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::start_test

@@ -9,7 +9,7 @@
 #include "tests/mechanisms/rsrrp.h"
 #include "tests/support/engine_probe.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::step_too_coarse_test {
 namespace {
 
 constexpr double kGravity = 9.81;
@@ -180,4 +180,4 @@ TEST(StepTooCoarse, Lanes_have_the_limits_and_the_ends_they_have_alone) {
   EXPECT_EQ(refused, 2);
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::step_too_coarse_test

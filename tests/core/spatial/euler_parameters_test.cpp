@@ -12,7 +12,7 @@
 #include "tests/support/near.h"
 #include "tests/support/random.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::euler_parameters_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -201,4 +201,4 @@ TEST(ShortenedDualQuaternion, And_its_inverse_compose_to_rest) {
   }
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::euler_parameters_test

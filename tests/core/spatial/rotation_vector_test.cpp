@@ -10,7 +10,7 @@
 #include "tests/support/near.h"
 #include "tests/support/random.h"
 
-namespace linkstudy::testing {
+namespace linkstudy::testing::rotation_vector_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -92,4 +92,4 @@ TEST(RotationVector, Its_gradient_is_that_of_finite_differences_and_along_itself
   }
 }
 
-}  // namespace linkstudy::testing
+}  // namespace linkstudy::testing::rotation_vector_test

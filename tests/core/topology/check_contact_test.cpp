@@ -8,12 +8,12 @@
 
 #include "core/topology/check_values.h"
 
-namespace linkstudy {
+namespace linkstudy::check_contact_test {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 // Table 1 of [AugUrb18].
 Friction document_friction() {
@@ -230,4 +230,4 @@ TEST(CheckFriction, A_surface_that_turns_has_a_radius_and_one_that_slides_may) {
 }
 
 }  // namespace
-}  // namespace linkstudy
+}  // namespace linkstudy::check_contact_test

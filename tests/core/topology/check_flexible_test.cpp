@@ -11,13 +11,13 @@
 
 #include "core/topology/check_linkage.h"
 
-namespace linkstudy {
+namespace linkstudy::check_flexible_test {
 namespace {
 
 using Eigen::Vector3d;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 // A rod of 1.5 kg and 0.5 m along a direction, steel of 20 mm diameter.
 Link steel_rod(const Vector3d& direction = Vector3d::UnitY()) {
@@ -177,4 +177,4 @@ TEST(CheckFlexible, Names_of_the_parts_are_nobody_else_s) {
 }
 
 }  // namespace
-}  // namespace linkstudy
+}  // namespace linkstudy::check_flexible_test

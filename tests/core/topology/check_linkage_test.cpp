@@ -7,12 +7,12 @@
 #include <cmath>
 #include <limits>
 
-namespace linkstudy {
+namespace linkstudy::check_linkage_test {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 Link make_link(const std::string& name) {
   Link link;
@@ -97,8 +97,8 @@ TEST(Check, Names_are_unique_legal_and_not_ground) {
   linkage.loads = {make_drive("C"), make_drive("C")};
   linkage.points.assign(2, {"tip", "a", Eigen::Vector3d::Zero()});
   EXPECT_THAT(paths(linkage),
-              testing::UnorderedElementsAre("link.5.name", "link.6.name", "link.7.name",
-                                            "joint.1.name", "load.1.name", "point.1.name"));
+              ::testing::UnorderedElementsAre("link.5.name", "link.6.name", "link.7.name",
+                                              "joint.1.name", "load.1.name", "point.1.name"));
 }
 
 TEST(Check, Values_of_a_namesake_are_addressed_by_position) {
@@ -211,9 +211,9 @@ TEST(Check, Closures_connect_two_different_links_and_block_something) {
   linkage.closures[3].type = JointType::free;
   linkage.closures[3].alpha = -1.0;
   EXPECT_THAT(paths(linkage),
-              testing::UnorderedElementsAre("closure.S0.second.link", "closure.S1.first.link",
-                                            "closure.S2.second.link", "closure.S3.type",
-                                            "closure.S3.cut.alpha"));
+              ::testing::UnorderedElementsAre("closure.S0.second.link", "closure.S1.first.link",
+                                              "closure.S2.second.link", "closure.S3.type",
+                                              "closure.S3.cut.alpha"));
 }
 
 TEST(Check, A_spring_damping_element_is_stiff_somewhere_and_nowhere_negative) {
@@ -306,9 +306,9 @@ TEST(Check, Loads_name_an_existing_coordinate_or_link) {
   linkage.loads[4].type = LoadType::link_torque;
   linkage.loads[4].link = "a";
   linkage.loads[4].direction = Eigen::Vector3d(1, 1, 0);
-  EXPECT_THAT(paths(linkage), testing::UnorderedElementsAre("load.F0.joint", "load.F1.coordinate",
-                                                            "load.F2.coordinate", "load.F3.link",
-                                                            "load.F4.direction"));
+  EXPECT_THAT(paths(linkage), ::testing::UnorderedElementsAre("load.F0.joint", "load.F1.coordinate",
+                                                              "load.F2.coordinate", "load.F3.link",
+                                                              "load.F4.direction"));
 }
 
 TEST(Check, Courses_and_laws_have_positive_durations_and_speeds) {
@@ -337,4 +337,4 @@ TEST(Check, A_point_is_on_a_link_or_on_ground_at_a_finite_place) {
 }
 
 }  // namespace
-}  // namespace linkstudy
+}  // namespace linkstudy::check_linkage_test

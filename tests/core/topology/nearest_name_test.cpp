@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace linkstudy {
+namespace linkstudy::nearest_name_test {
 namespace {
 
 TEST(NearestName, Distances_are_those_of_the_textbook_words) {
@@ -23,7 +23,7 @@ TEST(NearestName, A_typing_error_is_recognised_and_another_word_is_not) {
   EXPECT_EQ(nearest_name("x", {}), "");
   EXPECT_EQ(suggest_name("couplr", names), "did you mean 'coupler'?");
   EXPECT_EQ(suggest_name("slider", names), "known: ground, crank, coupler");
-  EXPECT_THAT(nearest_names("crank2", names, 2), testing::ElementsAre("crank", "ground"));
+  EXPECT_THAT(nearest_names("crank2", names, 2), ::testing::ElementsAre("crank", "ground"));
 }
 
 TEST(NearestName, Names_start_with_a_letter) {
@@ -33,4 +33,4 @@ TEST(NearestName, Names_start_with_a_letter) {
 }
 
 }  // namespace
-}  // namespace linkstudy
+}  // namespace linkstudy::nearest_name_test

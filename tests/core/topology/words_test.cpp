@@ -6,7 +6,7 @@
 #include "core/base/isa.h"
 #include "core/laws/contact_law.h"
 
-namespace linkstudy {
+namespace linkstudy::words_test {
 namespace {
 
 // Counts enumerators by what the compiler calls them, not by the table.
@@ -16,12 +16,12 @@ constexpr std::size_t count_enumerators(std::index_sequence<i...>) {
 }
 
 template <class E>
-class Words : public testing::Test {};
+class Words : public ::testing::Test {};
 
 using Enumerations =
-    testing::Types<InstructionSet, ContactLaw, ApproachSpeed, JointType, RotationCoordinates,
-                   ClosureModel, Stabilization, SdeForm, SdeAxes, TiltMeasure, SdeStart,
-                   ClearanceKind, FreeBristle, ContactPoints, CourseShape, ResistanceShape>;
+    ::testing::Types<InstructionSet, ContactLaw, ApproachSpeed, JointType, RotationCoordinates,
+                     ClosureModel, Stabilization, SdeForm, SdeAxes, TiltMeasure, SdeStart,
+                     ClearanceKind, FreeBristle, ContactPoints, CourseShape, ResistanceShape>;
 TYPED_TEST_SUITE(Words, Enumerations);
 
 TYPED_TEST(Words, There_is_one_for_every_enumerator_and_it_reads_back) {
@@ -43,4 +43,4 @@ TEST(DirectionNames, Are_named_in_their_order) {
 }
 
 }  // namespace
-}  // namespace linkstudy
+}  // namespace linkstudy::words_test

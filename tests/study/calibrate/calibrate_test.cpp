@@ -8,7 +8,7 @@
 
 #include "planted_model.h"
 
-namespace linkstudy::calibration {
+namespace linkstudy::calibration::calibrate_test {
 namespace {
 
 constexpr std::size_t kSamples = 400;
@@ -81,16 +81,16 @@ TEST(Calibration, intervals_hold_the_truth_as_often_as_they_say_with_white_noise
   const Coverage coverage = find_coverage(0.0);
   RecordProperty("profile", std::to_string(coverage.profile));
   RecordProperty("linear", std::to_string(coverage.linear));
-  EXPECT_THAT(coverage.profile, testing::AllOf(testing::Ge(0.92), testing::Le(0.98)));
-  EXPECT_THAT(coverage.linear, testing::AllOf(testing::Ge(0.92), testing::Le(0.98)));
+  EXPECT_THAT(coverage.profile, ::testing::AllOf(::testing::Ge(0.92), ::testing::Le(0.98)));
+  EXPECT_THAT(coverage.linear, ::testing::AllOf(::testing::Ge(0.92), ::testing::Le(0.98)));
 }
 
 TEST(Calibration, intervals_hold_the_truth_as_often_as_they_say_with_correlated_noise) {
   const Coverage coverage = find_coverage(0.9);
   RecordProperty("profile", std::to_string(coverage.profile));
   RecordProperty("linear", std::to_string(coverage.linear));
-  EXPECT_THAT(coverage.profile, testing::AllOf(testing::Ge(0.92), testing::Le(0.98)));
-  EXPECT_THAT(coverage.linear, testing::AllOf(testing::Ge(0.92), testing::Le(0.98)));
+  EXPECT_THAT(coverage.profile, ::testing::AllOf(::testing::Ge(0.92), ::testing::Le(0.98)));
+  EXPECT_THAT(coverage.linear, ::testing::AllOf(::testing::Ge(0.92), ::testing::Le(0.98)));
 }
 
 TEST(Calibration, correlated_noise_leaves_few_effective_samples) {
@@ -98,7 +98,7 @@ TEST(Calibration, correlated_noise_leaves_few_effective_samples) {
                                   evaluate_with(decay, with_noise(decay({2.0, 0.8}), 0.1, 0.9, 7)));
   // 400 (1 - 0.9) / (1 + 0.9) = 21; rho of 400 samples is known to sqrt((1 - rho^2) / n) = 0.02.
   EXPECT_NEAR(0.9, fit.figures.series[0].autocorrelation, 0.06);
-  EXPECT_THAT(fit.figures.effective, testing::AllOf(testing::Gt(8.0), testing::Lt(36.0)));
+  EXPECT_THAT(fit.figures.effective, ::testing::AllOf(::testing::Gt(8.0), ::testing::Lt(36.0)));
 }
 
 // x(t) of a mass on a spring depends on c / m alone.
@@ -118,7 +118,7 @@ TEST(Calibration, names_the_combination_of_a_planted_degeneracy) {
       calibrate(problem, FitOptions(),
                 evaluate_with(oscillation, with_noise(oscillation({1.0, 4.0, 1.0}), 0.01, 0.0, 3)));
   EXPECT_EQ(FitStatus::ambiguous, fit.status);
-  EXPECT_THAT(fit.flat, testing::ElementsAre("mass : stiffness = 1 : 1"));
+  EXPECT_THAT(fit.flat, ::testing::ElementsAre("mass : stiffness = 1 : 1"));
   EXPECT_EQ(Identifiability::structurally_flat, fit.estimates[0].identifiability);
   EXPECT_EQ(Identifiability::structurally_flat, fit.estimates[1].identifiability);
   EXPECT_EQ("mass : stiffness = 1 : 1", fit.estimates[1].combination);
@@ -207,7 +207,7 @@ TEST(Calibration, gives_no_intervals_where_the_residuals_are_one_long_wave) {
   problem.parameters[1].high = 0.1;
   const FitResult fit = calibrate(problem, FitOptions(), evaluate_with(decay, decay({2.0, 0.8})));
   EXPECT_EQ(FitStatus::ambiguous, fit.status);
-  EXPECT_THAT(fit.reason, testing::StartsWith("the residuals are so correlated that"));
+  EXPECT_THAT(fit.reason, ::testing::StartsWith("the residuals are so correlated that"));
   EXPECT_TRUE(std::isnan(fit.estimates[0].linear.low));
 }
 
@@ -241,4 +241,4 @@ TEST(Calibration, passes_on_what_an_evaluation_throws) {
 }
 
 }  // namespace
-}  // namespace linkstudy::calibration
+}  // namespace linkstudy::calibration::calibrate_test

@@ -7,7 +7,7 @@
 
 #include "planted_model.h"
 
-namespace linkstudy::calibration {
+namespace linkstudy::calibration::nist_test {
 namespace {
 
 const std::vector<double> kMisraX = {77.6,  114.9, 141.1, 190.8, 239.9, 289.0, 332.8,
@@ -80,4 +80,4 @@ TEST(NistBoxBod, is_found_from_the_lethal_start) {
 }
 
 }  // namespace
-}  // namespace linkstudy::calibration
+}  // namespace linkstudy::calibration::nist_test

@@ -6,7 +6,7 @@
 
 #include "planted_model.h"
 
-namespace linkstudy::calibration {
+namespace linkstudy::calibration::profile_test {
 namespace {
 
 // S = 5 + (x1 - 3)^2 + (x1 - x2 - 1)^2 + 0 x3^2, at S = 9: x1 in [1, 5], x2 in 2 -+ 2 sqrt 2, x3
@@ -45,4 +45,4 @@ TEST(Profile, has_the_ends_of_the_closed_form) {
 }
 
 }  // namespace
-}  // namespace linkstudy::calibration
+}  // namespace linkstudy::calibration::profile_test

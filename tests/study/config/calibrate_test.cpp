@@ -6,13 +6,13 @@
 #include "study/config/study_input.h"
 #include "wrong_text.h"
 
-namespace linkstudy {
+namespace linkstudy::calibrate_test {
 namespace {
 
 using test::write_file;
-using testing::DoubleEq;
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::DoubleEq;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 const char* const kCalibration = R"(format = 1
 kind = "calibrate"
@@ -84,7 +84,7 @@ TEST(CalibrationFile, says_what_is_fitted_to_what) {
   EXPECT_EQ(20, input->fit.starts);
 }
 
-class WrongCalibrations : public testing::TestWithParam<test::WrongFile> {};
+class WrongCalibrations : public ::testing::TestWithParam<test::WrongFile> {};
 
 TEST_P(WrongCalibrations, give_one_error_at_their_place) {
   test::expect_one_message(
@@ -125,7 +125,7 @@ const test::WrongFile kWrong[] = {
      "[[match]]\nsignal = \"closure.S.force\"\n[[experiment]]\nname = \"slow\"", "match"},
 };
 
-INSTANTIATE_TEST_SUITE_P(All, WrongCalibrations, testing::ValuesIn(kWrong),
+INSTANTIATE_TEST_SUITE_P(All, WrongCalibrations, ::testing::ValuesIn(kWrong),
                          [](const auto& one) { return one.param.name; });
 
 // What --set replaces stands in the runs that stand for measurements, too.
@@ -143,4 +143,4 @@ TEST(CalibrationFile, takes_a_value_of_the_command_line_wherever_it_states_it) {
 }
 
 }  // namespace
-}  // namespace linkstudy
+}  // namespace linkstudy::calibrate_test

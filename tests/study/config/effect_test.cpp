@@ -10,7 +10,7 @@
 #include "core/simulation/simulate.h"
 #include "tests/support/source_file.h"
 
-namespace linkstudy {
+namespace linkstudy::effect_test {
 namespace {
 
 using test::kRsrrp;
@@ -146,4 +146,4 @@ TEST(Effect, Is_none_where_a_run_keeps_every_bit) {
 }
 
 }  // namespace
-}  // namespace linkstudy
+}  // namespace linkstudy::effect_test

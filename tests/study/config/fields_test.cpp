@@ -20,7 +20,7 @@
 #include "study/config/validate.h"
 #include "tests/support/source_file.h"
 
-namespace linkstudy {
+namespace linkstudy::fields_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -242,4 +242,4 @@ TEST(Resolved, Every_study_of_ours_holds_all_defaults_and_reads_back_to_itself) 
 }
 
 }  // namespace
-}  // namespace linkstudy
+}  // namespace linkstudy::fields_test

@@ -10,14 +10,14 @@
 #include "study/config/check_file.h"
 #include "study/config/toml_reader.h"
 
-namespace linkstudy {
+namespace linkstudy::file_test {
 namespace {
 
 using test::kRsrrp;
 using test::read_text;
 using test::replaced;
 using test::write_file;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 Diagnostic the_only_error(const std::string& path) {
   const std::vector<Diagnostic> found = check_file(path);
@@ -148,8 +148,8 @@ TEST(File, All_errors_come_in_one_pass_in_the_order_of_the_file) {
   const std::vector<Diagnostic> found = diagnostics.sorted();
   std::vector<std::pair<int, int>> places;
   for (const Diagnostic& d : found) places.emplace_back(d.line, d.column);
-  EXPECT_THAT(places, testing::ElementsAre(std::pair(4, 11), std::pair(14, 8), std::pair(47, 10),
-                                           std::pair(72, 53), std::pair(83, 1)))
+  EXPECT_THAT(places, ::testing::ElementsAre(std::pair(4, 11), std::pair(14, 8), std::pair(47, 10),
+                                             std::pair(72, 53), std::pair(83, 1)))
       << to_string(diagnostics);
 }
 
@@ -181,4 +181,4 @@ TEST(File, One_mistake_gives_one_error) {
 }
 
 }  // namespace
-}  // namespace linkstudy
+}  // namespace linkstudy::file_test

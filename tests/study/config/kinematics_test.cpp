@@ -10,7 +10,7 @@
 #include "study/config/validate.h"
 #include "wrong_text.h"
 
-namespace linkstudy {
+namespace linkstudy::kinematics_test {
 namespace {
 
 using test::kRsrrp;
@@ -18,7 +18,7 @@ using test::read_good;
 using test::read_text;
 using test::replaced;
 using test::Wrong;
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
 constexpr double kPi = std::numbers::pi;
 
@@ -55,7 +55,7 @@ std::string with_ball(const std::string& text) {
                   "initial.position = [\"-60 deg\"]", "");
 }
 
-class WrongCourse : public testing::TestWithParam<Wrong> {};
+class WrongCourse : public ::testing::TestWithParam<Wrong> {};
 
 const Wrong kWrong[] = {
     {"unknown_joint", "[[kinematics.drive]]\njoint = \"P\"",
@@ -114,17 +114,15 @@ const Wrong kWrong[] = {
      "did you mean 'positions'?"},
 };
 
-std::string name_of_case(const testing::TestParamInfo<Wrong>& info) {
+std::string name_of_case(const ::testing::TestParamInfo<Wrong>& info) {
   return info.param.what;
 }
-
-}  // namespace
 
 TEST_P(WrongCourse, Gives_one_error_at_the_marked_place) {
   test::expect_one_error(kRsrrp + kCourse, GetParam());
 }
 
-INSTANTIATE_TEST_SUITE_P(Courses, WrongCourse, testing::ValuesIn(kWrong), name_of_case);
+INSTANTIATE_TEST_SUITE_P(Courses, WrongCourse, ::testing::ValuesIn(kWrong), name_of_case);
 
 TEST(Course, Is_read_key_by_key) {
   const KinematicsOptions course = read_good(kRsrrp + kCourse).kinematics;
@@ -168,7 +166,7 @@ TEST(Course, Several_coordinates_of_one_joint_are_driven_but_none_of_a_quaternio
     Diagnostics diagnostics;
     EXPECT_FALSE(read_text(with_ball(kRsrrp) + drive(i), diagnostics));
     EXPECT_EQ(diagnostics.size(), 1u) << to_string(diagnostics);
-    EXPECT_THAT(to_string(diagnostics), testing::HasSubstr("is of a quaternion"));
+    EXPECT_THAT(to_string(diagnostics), ::testing::HasSubstr("is of a quaternion"));
   }
 }
 
@@ -246,4 +244,5 @@ TEST(Resolved, Points_and_courses_read_back_to_themselves) {
   EXPECT_TRUE(equal_content(resolved, *again)) << write_toml(resolved);
 }
 
-}  // namespace linkstudy
+}  // namespace
+}  // namespace linkstudy::kinematics_test

@@ -7,12 +7,12 @@
 
 #include "config_text.h"
 
-namespace linkstudy {
+namespace linkstudy::measured_data_test {
 namespace {
 
 using test::write_file;
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 std::vector<WantedColumn> wanted(const std::string& time, const std::string& force) {
   return {{"time", {}, time, make_location("study.toml", 3, 1)},
@@ -90,4 +90,4 @@ TEST(MeasuredData, that_is_not_there_is_an_error_of_the_line_that_names_it) {
 }
 
 }  // namespace
-}  // namespace linkstudy
+}  // namespace linkstudy::measured_data_test

@@ -12,15 +12,15 @@
 #include "study/config/toml_reader.h"
 #include "study/config/toml_writer.h"
 
-namespace linkstudy {
+namespace linkstudy::model_test {
 namespace {
 
 using test::kRsrrp;
 using test::read_good;
 using test::read_text;
 using test::replaced;
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 constexpr double kPi = std::numbers::pi;
 
@@ -200,8 +200,8 @@ child = "bob"
 TEST(Model, One_stiffness_fills_the_directions_the_type_blocks) {
   const std::string revolute = replaced(kRsrrp, "type = \"spherical\"", "type = \"revolute\"");
   const Sde sde = read_good(revolute).linkage.closures[0].sde;
-  EXPECT_THAT(sde.stiffness, ElementsAre(1e6, 1e6, 1e6, 0, testing::DoubleEq(1e4),
-                                         testing::DoubleEq(1e4)));  // arm 0.1 m
+  EXPECT_THAT(sde.stiffness, ElementsAre(1e6, 1e6, 1e6, 0, ::testing::DoubleEq(1e4),
+                                         ::testing::DoubleEq(1e4)));  // arm 0.1 m
   const Sde longer = read_good(revolute, {"closure.S.sde.arm=0.5 m"}).linkage.closures[0].sde;
   EXPECT_EQ(longer.stiffness[kPsi], 0.25e6);
   EXPECT_EQ(longer.damping[kPsi], 250.0);
@@ -330,4 +330,4 @@ TEST(Model, A_case_costs_no_more_than_a_few_readings_of_the_text) {
 }
 
 }  // namespace
-}  // namespace linkstudy
+}  // namespace linkstudy::model_test

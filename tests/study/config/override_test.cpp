@@ -6,12 +6,12 @@
 #include "config_text.h"
 #include "study/config/key_reference.h"
 
-namespace linkstudy {
+namespace linkstudy::override_test {
 namespace {
 
 using test::kRsrrp;
 using test::replaced;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 ModelDocument document() {
   Diagnostics diagnostics;
@@ -100,7 +100,7 @@ TEST(Override, An_element_of_an_array_that_is_not_written_starts_from_its_defaul
             Eigen::Vector3d(0, 0, 0.3));
   const ModelInput quaternion = good({"joint.Q.type=spherical", "joint.Q.coordinates=quaternion",
                                       "joint.Q.initial.position.0=1.0001"});
-  EXPECT_THAT(quaternion.linkage.joints[2].position, testing::ElementsAre(1.0, 0, 0, 0));
+  EXPECT_THAT(quaternion.linkage.joints[2].position, ::testing::ElementsAre(1.0, 0, 0, 0));
 }
 
 TEST(Override, Later_values_win) {
@@ -203,7 +203,7 @@ TEST(Reference, Every_key_of_the_reference_linkage_is_described) {
   EXPECT_THAT(*describe("simulation.step"), HasSubstr("default: 1.0e-4"));
   EXPECT_FALSE(describe("link.crank.color"));
   EXPECT_THAT(nearest_keys("link.mas").front(), "link.*.mass");
-  EXPECT_THAT(nearest_keys("mass"), testing::ElementsAre("link.*.mass"));
+  EXPECT_THAT(nearest_keys("mass"), ::testing::ElementsAre("link.*.mass"));
 }
 
 TEST(Reference, The_markdown_has_a_row_for_every_key_and_six_columns) {
@@ -234,4 +234,4 @@ TEST(Reference, Every_row_has_a_meaning_and_no_required_key_a_default) {
 }
 
 }  // namespace
-}  // namespace linkstudy
+}  // namespace linkstudy::override_test

@@ -10,12 +10,12 @@
 #include "study/config/toml_writer.h"
 #include "study/config/value_path.h"
 
-namespace linkstudy {
+namespace linkstudy::precedence_test {
 namespace {
 
 using test::kRsrrp;
 using test::write_file;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 // A study of the crank's mass (1 kg in the model file) as far as its sources state it.
 struct Sources {
@@ -158,7 +158,7 @@ TEST(Precedence, The_resolved_study_states_what_was_run) {
   ASSERT_TRUE(input) << to_string(diagnostics);
   const std::string resolved = write_toml(input->resolved);
   EXPECT_THAT(resolved, HasSubstr("set = { \"link.crank.mass\" = 5"));
-  EXPECT_THAT(resolved, testing::Not(HasSubstr("yoke")));
+  EXPECT_THAT(resolved, ::testing::Not(HasSubstr("yoke")));
 }
 
 TEST(Precedence, A_set_option_that_makes_cases_and_reference_alike_is_remarked) {
@@ -225,4 +225,4 @@ TEST(ValuePath, Relations_follow_the_value_and_not_its_spelling) {
 }
 
 }  // namespace
-}  // namespace linkstudy
+}  // namespace linkstudy::precedence_test

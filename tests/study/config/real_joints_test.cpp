@@ -11,14 +11,14 @@
 #include "study/config/toml_writer.h"
 #include "study/config/validate.h"
 
-namespace linkstudy {
+namespace linkstudy::real_joints_test {
 namespace {
 
 using test::kRsrrp;
 using test::read_good;
 using test::read_text;
 using test::replaced;
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
 constexpr double kPi = std::numbers::pi;
 
@@ -267,4 +267,4 @@ TEST(RealJoints, A_resolved_text_with_everything_reads_back_to_itself) {
 }
 
 }  // namespace
-}  // namespace linkstudy
+}  // namespace linkstudy::real_joints_test

@@ -7,13 +7,13 @@
 #include "study/config/precedence.h"
 #include "wrong_text.h"
 
-namespace linkstudy {
+namespace linkstudy::reference_data_test {
 namespace {
 
 using test::write_file;
-using testing::DoubleEq;
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::DoubleEq;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 const char* const kMeasuredStudy = R"(format = 1
 kind = "study"
@@ -80,7 +80,7 @@ TEST(ReferenceData, are_read_from_what_results_hold_of_them) {
               HasSubstr("results:6:8: error: the results do not hold the data 'force.csv'"));
 }
 
-class WrongReferences : public testing::TestWithParam<test::WrongFile> {};
+class WrongReferences : public ::testing::TestWithParam<test::WrongFile> {};
 
 TEST_P(WrongReferences, give_one_error_at_their_place) {
   test::expect_one_message(kMeasuredStudy, GetParam(),
@@ -115,8 +115,8 @@ const test::WrongFile kWrongReferences[] = {
      "", ":18:1: error: this load case has no reference to compare with"},
 };
 
-INSTANTIATE_TEST_SUITE_P(All, WrongReferences, testing::ValuesIn(kWrongReferences),
+INSTANTIATE_TEST_SUITE_P(All, WrongReferences, ::testing::ValuesIn(kWrongReferences),
                          [](const auto& one) { return one.param.name; });
 
 }  // namespace
-}  // namespace linkstudy
+}  // namespace linkstudy::reference_data_test

@@ -11,14 +11,14 @@
 #include "config_text.h"
 #include "study/config/case_selection.h"
 
-namespace linkstudy {
+namespace linkstudy::study_cases_test {
 namespace {
 
 using test::kRsrrp;
 using test::write_file;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 constexpr const char* kHead = "format = 1\nkind = \"study\"\nmodel = \"rsrrp.toml\"\n";
 constexpr const char* kSde = "base = { set = { \"closure.S.model\" = \"sde\" } }\n";
@@ -153,7 +153,7 @@ TEST(StudyCases, A_selection_of_a_large_design_is_bounded_and_has_both_ends) {
   std::set<std::size_t> sevens;
   for (const CasePositions& one : grid) sevens.insert(one[1]);
   EXPECT_EQ(sevens.size(), 7u);
-  EXPECT_THAT(grid, testing::Contains(ElementsAre(999, 6)));
+  EXPECT_THAT(grid, ::testing::Contains(ElementsAre(999, 6)));
 }
 
 TEST(StudyCases, Are_counted_as_far_as_a_study_goes) {
@@ -164,4 +164,4 @@ TEST(StudyCases, Are_counted_as_far_as_a_study_goes) {
 }
 
 }  // namespace
-}  // namespace linkstudy
+}  // namespace linkstudy::study_cases_test

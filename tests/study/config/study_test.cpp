@@ -9,15 +9,15 @@
 #include "study/config/check_file.h"
 #include "study/config/toml_writer.h"
 
-namespace linkstudy {
+namespace linkstudy::study_test {
 namespace {
 
 using test::kRsrrp;
 using test::replaced;
 using test::write_file;
-using testing::DoubleEq;
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::DoubleEq;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 const char* const kTune = R"(format = 1
 kind = "tune"
@@ -243,7 +243,7 @@ void expect_error(const Wrong& wrong) {
   ASSERT_EQ(found.size(), 1u) << wrong.to << "\n" << to_string(diagnostics);
   EXPECT_EQ(found[0].line, line) << to_string(diagnostics);
   EXPECT_EQ(found[0].column, static_cast<int>(column)) << to_string(diagnostics);
-  EXPECT_THAT(found[0].file, testing::EndsWith("study.toml"));
+  EXPECT_THAT(found[0].file, ::testing::EndsWith("study.toml"));
   EXPECT_THAT(found[0].message, HasSubstr(wrong.message));
   EXPECT_THAT(found[0].remedy, HasSubstr(wrong.remedy));
 }
@@ -363,7 +363,7 @@ TEST(Study, Errors_of_the_model_file_are_reported_there_and_once) {
   EXPECT_FALSE(read(kTune, diagnostics, replaced(kRsrrp, "mass = 1.5", "mass = -1.5")));
   const std::vector<Diagnostic> found = diagnostics.sorted();
   ASSERT_EQ(found.size(), 1u) << to_string(diagnostics);
-  EXPECT_THAT(found[0].file, testing::EndsWith("rsrrp.toml"));
+  EXPECT_THAT(found[0].file, ::testing::EndsWith("rsrrp.toml"));
   EXPECT_EQ(found[0].line, 24);
   EXPECT_EQ(found[0].column, 8);
   EXPECT_EQ(check_file(std::filesystem::path(found[0].file).parent_path() / "study.toml").size(),
@@ -377,4 +377,4 @@ TEST(Study, A_model_in_the_place_of_a_study_is_an_error) {
 }
 
 }  // namespace
-}  // namespace linkstudy
+}  // namespace linkstudy::study_test

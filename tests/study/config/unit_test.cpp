@@ -7,7 +7,7 @@
 
 #include "study/config/key.h"
 
-namespace linkstudy {
+namespace linkstudy::unit_test {
 namespace {
 
 double in(const std::string& text, const std::string& unit) {
@@ -167,4 +167,4 @@ TEST(Unit, Every_unit_of_the_key_tables_parses_and_is_SI_or_per_revolution) {
 }
 
 }  // namespace
-}  // namespace linkstudy
+}  // namespace linkstudy::unit_test

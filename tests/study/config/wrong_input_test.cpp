@@ -4,21 +4,21 @@
 #include "config_text.h"
 #include "wrong_text.h"
 
-namespace linkstudy {
+namespace linkstudy::wrong_input_test {
 namespace {
 
 using test::expect_one_error;
 using test::kRsrrp;
 using test::Wrong;
 
-class WrongModel : public testing::TestWithParam<Wrong> {};
+class WrongModel : public ::testing::TestWithParam<Wrong> {};
 
 TEST_P(WrongModel, Gives_one_error_at_the_marked_place) {
   expect_one_error(kRsrrp, GetParam());
 }
 
 // The same linkage with clearance, friction, a spring and a flexible coupler.
-class WrongRealJoint : public testing::TestWithParam<Wrong> {};
+class WrongRealJoint : public ::testing::TestWithParam<Wrong> {};
 
 TEST_P(WrongRealJoint, Gives_one_error_at_the_marked_place) {
   expect_one_error(test::real_joints_text(), GetParam());
@@ -367,17 +367,17 @@ const Wrong kSyntax[] = {
     {"overlong_utf8", "RSRRP linkage", "RSRRP @\xC0\x80linkage", "not UTF-8"},
 };
 
-std::string name_of_case(const testing::TestParamInfo<Wrong>& info) {
+std::string name_of_case(const ::testing::TestParamInfo<Wrong>& info) {
   return info.param.what;
 }
 
-INSTANTIATE_TEST_SUITE_P(Values, WrongModel, testing::ValuesIn(kValues), name_of_case);
-INSTANTIATE_TEST_SUITE_P(Keys, WrongModel, testing::ValuesIn(kKeys), name_of_case);
-INSTANTIATE_TEST_SUITE_P(Words, WrongModel, testing::ValuesIn(kWords), name_of_case);
-INSTANTIATE_TEST_SUITE_P(Wrong, WrongRealJoint, testing::ValuesIn(kRealJoints), name_of_case);
-INSTANTIATE_TEST_SUITE_P(Rotations, WrongModel, testing::ValuesIn(kRotations), name_of_case);
-INSTANTIATE_TEST_SUITE_P(Structure, WrongModel, testing::ValuesIn(kStructure), name_of_case);
-INSTANTIATE_TEST_SUITE_P(Syntax, WrongModel, testing::ValuesIn(kSyntax), name_of_case);
+INSTANTIATE_TEST_SUITE_P(Values, WrongModel, ::testing::ValuesIn(kValues), name_of_case);
+INSTANTIATE_TEST_SUITE_P(Keys, WrongModel, ::testing::ValuesIn(kKeys), name_of_case);
+INSTANTIATE_TEST_SUITE_P(Words, WrongModel, ::testing::ValuesIn(kWords), name_of_case);
+INSTANTIATE_TEST_SUITE_P(Wrong, WrongRealJoint, ::testing::ValuesIn(kRealJoints), name_of_case);
+INSTANTIATE_TEST_SUITE_P(Rotations, WrongModel, ::testing::ValuesIn(kRotations), name_of_case);
+INSTANTIATE_TEST_SUITE_P(Structure, WrongModel, ::testing::ValuesIn(kStructure), name_of_case);
+INSTANTIATE_TEST_SUITE_P(Syntax, WrongModel, ::testing::ValuesIn(kSyntax), name_of_case);
 
 }  // namespace
-}  // namespace linkstudy
+}  // namespace linkstudy::wrong_input_test

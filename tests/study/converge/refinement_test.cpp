@@ -9,10 +9,10 @@
 
 #include "study/converge/observed_order.h"
 
-namespace linkstudy::convergence {
+namespace linkstudy::convergence::refinement_test {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 // Levels r^-i with these values, finest first.
 std::vector<Level> halved(const std::vector<double>& finest_first, double ratio = 2.0) {
@@ -285,4 +285,4 @@ TEST(OrderFit, Of_three_levels_is_what_their_triple_says) {
 }
 
 }  // namespace
-}  // namespace linkstudy::convergence
+}  // namespace linkstudy::convergence::refinement_test

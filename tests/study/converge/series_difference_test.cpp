@@ -9,7 +9,7 @@
 
 #include "study/converge/needed_size.h"
 
-namespace linkstudy::convergence {
+namespace linkstudy::convergence::series_difference_test {
 namespace {
 
 struct Sampled {
@@ -27,7 +27,7 @@ Sampled sampled(double step, double end, Function f) {
 }
 
 // x(t; h) = cos t + a h^p sin 3 t over one period, kept every 0.01 s of whatever step.
-class PlantedHistories : public testing::Test {
+class PlantedHistories : public ::testing::Test {
  protected:
   static constexpr double kEnd = 6.28;
 
@@ -127,4 +127,4 @@ TEST(NeededSize, Heeds_finer_levels_that_are_worse_and_levels_that_failed) {
 }
 
 }  // namespace
-}  // namespace linkstudy::convergence
+}  // namespace linkstudy::convergence::series_difference_test

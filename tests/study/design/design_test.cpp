@@ -9,11 +9,11 @@
 
 #include "study/record/sequence.h"
 
-namespace linkstudy {
+namespace linkstudy::design_test {
 namespace {
 
-using testing::HasSubstr;
-using testing::ThrowsMessage;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
 
 Axis words(const std::string& path, std::vector<std::string> values) {
   return {{path, "", ""}, std::vector<Value>(values.begin(), values.end())};
@@ -83,7 +83,7 @@ TEST(List, Of_unequal_axes_names_both_and_their_lengths) {
         make_points(Design::list, {numbers("step", {1, 2, 3}), numbers("mass", {1, 2})});
       },
       ThrowsMessage<std::invalid_argument>(
-          testing::AllOf(HasSubstr("'mass' has 2"), HasSubstr("'step' has 3"))));
+          ::testing::AllOf(HasSubstr("'mass' has 2"), HasSubstr("'step' has 3"))));
 }
 
 TEST(Designs, Without_axes_are_the_base_model_alone) {
@@ -109,4 +109,4 @@ TEST(Designs, Are_found_by_the_name_they_print) {
 }
 
 }  // namespace
-}  // namespace linkstudy
+}  // namespace linkstudy::design_test

@@ -8,7 +8,7 @@
 #include "tests/mechanisms/bushing.h"
 #include "tests/mechanisms/mass_on_spring.h"
 
-namespace linkstudy {
+namespace linkstudy::derived_damping_test {
 namespace {
 
 constexpr double kRounding = 1e-12;  // relative; a root and an eigenvalue
@@ -65,4 +65,4 @@ TEST(DerivedDamping, Is_told_only_where_a_ratio_gives_it) {
 }
 
 }  // namespace
-}  // namespace linkstudy
+}  // namespace linkstudy::derived_damping_test

@@ -12,7 +12,7 @@
 
 #include "study/evaluate/reference_bytes.h"
 
-namespace linkstudy {
+namespace linkstudy::evaluator_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -460,4 +460,4 @@ TEST(EvaluationBytes, Come_back_as_they_went) {
 }
 
 }  // namespace
-}  // namespace linkstudy
+}  // namespace linkstudy::evaluator_test

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace linkstudy {
+namespace linkstudy::form_packs_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -67,4 +67,4 @@ TEST(Packs, Hold_what_shares_steps_and_words_and_every_point_once) {
 }
 
 }  // namespace
-}  // namespace linkstudy
+}  // namespace linkstudy::form_packs_test

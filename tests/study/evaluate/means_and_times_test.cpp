@@ -8,7 +8,7 @@
 #include "falling_mass.h"
 #include "study/evaluate/check_times.h"
 
-namespace linkstudy {
+namespace linkstudy::means_and_times_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -124,4 +124,4 @@ TEST_F(FallingMass, Responses_may_not_take_the_name_of_another_column) {
 }
 
 }  // namespace
-}  // namespace linkstudy
+}  // namespace linkstudy::means_and_times_test

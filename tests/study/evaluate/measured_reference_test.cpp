@@ -7,7 +7,7 @@
 
 #include "falling_mass.h"
 
-namespace linkstudy {
+namespace linkstudy::measured_reference_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -108,4 +108,4 @@ TEST_F(MeasuredFall, Refuses_what_it_cannot_compare) {
 }
 
 }  // namespace
-}  // namespace linkstudy
+}  // namespace linkstudy::measured_reference_test

@@ -5,7 +5,7 @@
 #include "study/config/model_document.h"
 #include "tests/support/rsrrp_text.h"
 
-namespace linkstudy {
+namespace linkstudy::prepared_case_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -92,4 +92,4 @@ TEST_F(Grouping, Runs_each_case_as_if_it_were_alone) {
 }
 
 }  // namespace
-}  // namespace linkstudy
+}  // namespace linkstudy::prepared_case_test

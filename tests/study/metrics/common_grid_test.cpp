@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace linkstudy {
+namespace linkstudy::common_grid_test {
 namespace {
 
 TEST(CommonGrid, Equal_steps_meet_at_every_step) {
@@ -106,4 +106,4 @@ TEST(TimeWeights, Of_one_sample_give_its_value) {
 }
 
 }  // namespace
-}  // namespace linkstudy
+}  // namespace linkstudy::common_grid_test

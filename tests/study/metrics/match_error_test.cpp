@@ -6,7 +6,7 @@
 
 #include "study/metrics/invalid_point.h"
 
-namespace linkstudy {
+namespace linkstudy::match_error_test {
 namespace {
 
 // A reference of three components over 101 steps of 0.01 s: 3 sin t, 4 sin t and 1e-3, so that the
@@ -111,4 +111,4 @@ TEST_F(MatchErrors, Say_what_cannot_be_compared) {
 }
 
 }  // namespace
-}  // namespace linkstudy
+}  // namespace linkstudy::match_error_test

@@ -10,12 +10,12 @@
 
 #include "study/metrics/invalid_point.h"
 
-namespace linkstudy {
+namespace linkstudy::measured_match_test {
 namespace {
 
-using testing::DoubleNear;
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::DoubleNear;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 constexpr StepGrid kSteps{100, 0.01};
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
@@ -187,4 +187,4 @@ TEST_F(MeasuredMatches, Throw_where_a_run_does_not_reach_an_instant) {
 }
 
 }  // namespace
-}  // namespace linkstudy
+}  // namespace linkstudy::measured_match_test

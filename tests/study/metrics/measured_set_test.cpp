@@ -8,12 +8,12 @@
 
 #include "study/metrics/invalid_point.h"
 
-namespace linkstudy {
+namespace linkstudy::measured_set_test {
 namespace {
 
-using testing::DoubleNear;
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::DoubleNear;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 constexpr StepGrid kGrid{100, 0.01};
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
@@ -119,4 +119,4 @@ TEST(MeasuredSet, refuses_channels_that_are_not_there_and_units_of_another_kind)
 }
 
 }  // namespace
-}  // namespace linkstudy
+}  // namespace linkstudy::measured_set_test

@@ -5,7 +5,7 @@
 
 #include <functional>
 
-namespace linkstudy {
+namespace linkstudy::response_list_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -115,4 +115,4 @@ TEST(SameChannel, Differs_with_every_member) {
 }
 
 }  // namespace
-}  // namespace linkstudy
+}  // namespace linkstudy::response_list_test

@@ -9,7 +9,7 @@
 
 #include "study/plan/pull_schedule.h"
 
-namespace linkstudy::plan {
+namespace linkstudy::plan::pull_schedule_test {
 namespace {
 
 TEST(PullSchedule, Equal_tasks_take_full_rounds) {
@@ -46,4 +46,4 @@ TEST(PullSchedule, No_sooner_than_the_work_allows_and_no_later_than_its_longest_
 }
 
 }  // namespace
-}  // namespace linkstudy::plan
+}  // namespace linkstudy::plan::pull_schedule_test

@@ -13,7 +13,7 @@
 #include "study/record/bytes.h"
 #include "study/record/sha256.h"
 
-namespace linkstudy {
+namespace linkstudy::digest_test {
 namespace {
 
 const std::vector<Parameter> kParameters = {{"closure.S.sde.stiffness", "N/m", "stiffness"},
@@ -146,4 +146,4 @@ TEST(Digest, The_input_digest_sees_where_a_text_ends) {
 }
 
 }  // namespace
-}  // namespace linkstudy
+}  // namespace linkstudy::digest_test

@@ -7,7 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace linkstudy {
+namespace linkstudy::sequence_test {
 namespace {
 
 using Numbers = std::vector<double>;
@@ -101,4 +101,4 @@ TEST(Sequences, Of_one_value_are_that_value) {
 }
 
 }  // namespace
-}  // namespace linkstudy
+}  // namespace linkstudy::sequence_test

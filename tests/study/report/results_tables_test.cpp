@@ -8,11 +8,11 @@
 #include "study/report/choose_table.h"
 #include "study/report/write_table.h"
 
-namespace linkstudy {
+namespace linkstudy::results_tables_test {
 namespace {
 
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 const std::string kMax = "largest relative error of closure.S.force.";
 const std::string kRms = "root-mean-square relative error of closure.S.force.";
@@ -268,4 +268,4 @@ TEST(TracesTable, Stand_below_each_other_with_their_differences) {
 }
 
 }  // namespace
-}  // namespace linkstudy
+}  // namespace linkstudy::results_tables_test

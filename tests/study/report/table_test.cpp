@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-namespace linkstudy {
+namespace linkstudy::table_test {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
@@ -181,7 +181,7 @@ TEST(TableWidth, Names_go_over_several_lines_before_anything_is_left_out) {
   for (const char* part : {"stiffness", "force", "status", "31622.8", "diverged"}) {
     EXPECT_THAT(text, HasSubstr(part));
   }
-  EXPECT_THAT(text, testing::Not(HasSubstr("columns fit")));
+  EXPECT_THAT(text, ::testing::Not(HasSubstr("columns fit")));
   EXPECT_EQ(text_of(table, 200), text_of(table)) << "what fits is left alone";
 }
 
@@ -209,4 +209,4 @@ TEST(TableWidth, Long_texts_are_shortened_then_columns_left_out_with_a_note) {
 }
 
 }  // namespace
-}  // namespace linkstudy
+}  // namespace linkstudy::table_test

@@ -6,10 +6,10 @@
 
 #include <map>
 
-namespace linkstudy {
+namespace linkstudy::batch_job_test {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 Environment make_environment(std::map<std::string, std::string> variables) {
   return [variables = std::move(variables)](const char* name) -> std::optional<std::string> {
@@ -69,4 +69,4 @@ TEST(Batch_step, Of_several_tasks_that_starts_one_process_is_refused) {
 }
 
 }  // namespace
-}  // namespace linkstudy
+}  // namespace linkstudy::batch_job_test

@@ -6,10 +6,10 @@
 
 #include <map>
 
-namespace linkstudy {
+namespace linkstudy::launcher_test {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 Launcher find(std::map<std::string, std::string> variables) {
   return find_launcher([&](const char* name) -> std::optional<std::string> {
@@ -96,4 +96,4 @@ TEST(Launcher, Of_several_copies_of_a_verb_for_one_process_is_refused) {
 }
 
 }  // namespace
-}  // namespace linkstudy
+}  // namespace linkstudy::launcher_test

@@ -14,7 +14,7 @@
 
 #include "study/schedule/stop_signals.h"
 
-namespace linkstudy {
+namespace linkstudy::pool_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -31,7 +31,7 @@ std::string square(const std::string& task) {
   return std::to_string(number * number);
 }
 
-class LocalPool : public testing::Test {
+class LocalPool : public ::testing::Test {
  protected:
   void SetUp() override { reset_stop(); }
   void TearDown() override { reset_stop(); }
@@ -150,7 +150,7 @@ TEST_F(LocalPool, Stops_early_when_told_to_and_calls_that_no_interruption) {
   EXPECT_EQ(pool.run(count_up(5), [](const TaskResult&) {}).done, 5u);
 }
 
-class SignalledPool : public LocalPool, public testing::WithParamInterface<int> {};
+class SignalledPool : public LocalPool, public ::testing::WithParamInterface<int> {};
 
 TEST_P(SignalledPool, Waits_for_the_running_task_and_ends_interrupted) {
   const StopSignals signals;
@@ -178,7 +178,7 @@ TEST_P(SignalledPool, Waits_for_the_running_task_and_ends_interrupted) {
   EXPECT_EQ(pool.run(count_up(5), [](const TaskResult&) {}).done, 0u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Each, SignalledPool, testing::Values(SIGUSR1, SIGINT));
+INSTANTIATE_TEST_SUITE_P(Each, SignalledPool, ::testing::Values(SIGUSR1, SIGINT));
 
 // Work that ends within a millisecond of being told to, and else takes minutes.
 class Interruptible {
@@ -198,7 +198,7 @@ class Interruptible {
   std::atomic<bool> cancelled_ = false;
 };
 
-class CancellingPool : public LocalPool, public testing::WithParamInterface<int> {};
+class CancellingPool : public LocalPool, public ::testing::WithParamInterface<int> {};
 
 TEST_P(CancellingPool, Cancels_the_running_task_and_ends_interrupted) {
   const StopSignals signals;
@@ -222,7 +222,7 @@ TEST_P(CancellingPool, Cancels_the_running_task_and_ends_interrupted) {
   EXPECT_TRUE(pool.close());
 }
 
-INSTANTIATE_TEST_SUITE_P(Each, CancellingPool, testing::Values(SIGTERM, SIGHUP, SIGUSR2));
+INSTANTIATE_TEST_SUITE_P(Each, CancellingPool, ::testing::Values(SIGTERM, SIGHUP, SIGUSR2));
 
 TEST_F(LocalPool, Cancels_what_is_in_flight_at_the_end_of_its_time) {
   PoolOptions options;
@@ -263,7 +263,7 @@ TEST_F(LocalPool, Returns_at_once_on_a_second_signal_and_exits_past_the_running_
     pool.leave_now(kExitResumable);
   };
   const auto start = steady_clock::now();
-  EXPECT_EXIT(study(), testing::ExitedWithCode(75), "");
+  EXPECT_EXIT(study(), ::testing::ExitedWithCode(75), "");
   EXPECT_LT(steady_clock::now() - start, std::chrono::seconds(60));
 }
 
@@ -298,4 +298,4 @@ TEST_F(LocalPool, Serves_nobody) {
 }
 
 }  // namespace
-}  // namespace linkstudy
+}  // namespace linkstudy::pool_test

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <sstream>
 
-namespace linkstudy {
+namespace linkstudy::progress_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -60,7 +60,7 @@ TEST(Progress_bar, Fills_in_proportion_and_keeps_its_columns) {
   EXPECT_EQ(std::count(all.begin(), all.end(), '-'), 0);
   EXPECT_EQ(none.find('%'), half.find('%'));
   EXPECT_EQ(all.find('%'), half.find('%'));
-  EXPECT_THAT(half, testing::EndsWith("500/1000  50%  100/s  5.0s left"));
+  EXPECT_THAT(half, ::testing::EndsWith("500/1000  50%  100/s  5.0s left"));
 }
 
 TEST(Progress_bar, Is_cut_to_the_terminal) {
@@ -76,8 +76,8 @@ TEST(Progress, In_a_log_writes_at_most_every_ten_seconds_and_a_last_line) {
   progress.finish(start + seconds(25));
   const std::string text = log.str();
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 3);  // at 10 s, at 20 s, and the last
-  EXPECT_THAT(text, testing::EndsWith("100 of 100 (100%), 4/s, 25s\n"));
-  EXPECT_THAT(text, testing::Not(testing::HasSubstr("\r")));
+  EXPECT_THAT(text, ::testing::EndsWith("100 of 100 (100%), 4/s, 25s\n"));
+  EXPECT_THAT(text, ::testing::Not(::testing::HasSubstr("\r")));
 }
 
 TEST(Progress, On_a_terminal_redraws_one_line_at_most_ten_times_a_second) {
@@ -125,4 +125,4 @@ TEST(Progress_mode, Is_found_by_its_name) {
 }
 
 }  // namespace
-}  // namespace linkstudy
+}  // namespace linkstudy::progress_test

@@ -4,15 +4,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace linkstudy {
+namespace linkstudy::rank_watch_test {
 namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::seconds;
-using testing::ElementsAre;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 
-class Watched : public testing::Test {
+class Watched : public ::testing::Test {
  protected:
   // Looks every 100 ms for so long; ranks in `answering` are heard each time. What was lost.
   std::vector<int> watch(RankWatch& watch, seconds time, const std::vector<int>& answering,
@@ -81,4 +81,4 @@ TEST_F(Watched, Ranks_are_called_once_a_second) {
 }
 
 }  // namespace
-}  // namespace linkstudy
+}  // namespace linkstudy::rank_watch_test

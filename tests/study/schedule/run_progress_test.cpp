@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <sstream>
 
-namespace linkstudy {
+namespace linkstudy::run_progress_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -114,4 +114,4 @@ TEST(Run_watch, Of_mode_none_writes_nothing) {
 }
 
 }  // namespace
-}  // namespace linkstudy
+}  // namespace linkstudy::run_progress_test

@@ -6,7 +6,7 @@
 #include <chrono>
 #include <thread>
 
-namespace linkstudy {
+namespace linkstudy::stop_signals_test {
 namespace {
 
 TEST(Stop_signals, Raise_the_level_instead_of_killing) {
@@ -82,4 +82,4 @@ TEST(Stop_requests, Count_like_signals) {
 }
 
 }  // namespace
-}  // namespace linkstudy
+}  // namespace linkstudy::stop_signals_test

@@ -14,7 +14,7 @@
 #include "tests/support/simd_levels.h"
 #include "tests/support/source_file.h"
 
-namespace linkstudy {
+namespace linkstudy::fixed_kernels_test {
 namespace {
 
 using testing::same_bits;
@@ -161,4 +161,4 @@ TEST(FixedStructure, The_source_text_lists_every_member) {
   }
 }
 
-}  // namespace linkstudy
+}  // namespace linkstudy::fixed_kernels_test

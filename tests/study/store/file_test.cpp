@@ -7,7 +7,7 @@
 
 #include "tests/study/store/scratch.h"
 
-namespace linkstudy {
+namespace linkstudy::file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -46,4 +46,4 @@ TEST_F(Text_file, That_is_a_pipe_is_written_to_and_stays_a_pipe) {
 }
 
 }  // namespace
-}  // namespace linkstudy
+}  // namespace linkstudy::file_test

@@ -18,10 +18,10 @@
 #include "tests/study/store/sample/sample.h"
 #include "tests/study/store/scratch.h"
 
-namespace linkstudy {
+namespace linkstudy::journal_test {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 const std::string& kInput = sample::kInputSha256;
 const std::string kOtherInput(64, 'b');
@@ -391,4 +391,4 @@ TEST_F(JournalFile, Sixty_kills_lose_no_acknowledged_row) {
 }
 
 }  // namespace
-}  // namespace linkstudy
+}  // namespace linkstudy::journal_test

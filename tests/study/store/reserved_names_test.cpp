@@ -6,7 +6,7 @@
 #include "study/record/column_names.h"
 #include "study/store/results_tree.h"
 
-namespace linkstudy {
+namespace linkstudy::reserved_names_test {
 namespace {
 
 TEST(ReservedNames, Are_those_of_all_columns_of_a_table_of_evaluations) {
@@ -20,4 +20,4 @@ TEST(ReservedNames, Are_those_of_all_columns_of_a_table_of_evaluations) {
 }
 
 }  // namespace
-}  // namespace linkstudy
+}  // namespace linkstudy::reserved_names_test

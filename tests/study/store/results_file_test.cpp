@@ -16,10 +16,10 @@
 #include "tests/study/store/sample/sample.h"
 #include "tests/study/store/scratch.h"
 
-namespace linkstudy {
+namespace linkstudy::results_file_test {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 class ResultsFile : public Scratch {
  protected:
@@ -88,7 +88,7 @@ TEST_F(ResultsFile, Keeps_tunings_of_any_shape) {
   const Table expected = sample::tuning();
   EXPECT_EQ(read.answers[0].tables.name, expected.name);
   EXPECT_THAT(read.answers[0].tables.attributes,
-              testing::UnorderedElementsAreArray(expected.attributes));
+              ::testing::UnorderedElementsAreArray(expected.attributes));
   EXPECT_EQ(read.answers[0].tables.parts, expected.parts);
 }
 
@@ -292,4 +292,4 @@ TEST_F(ResultsFile, A_text_is_replaced_whole_or_not_at_all) {
 }
 
 }  // namespace
-}  // namespace linkstudy
+}  // namespace linkstudy::results_file_test

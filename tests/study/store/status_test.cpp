@@ -7,10 +7,10 @@
 #include "tests/study/store/sample/sample.h"
 #include "tests/study/store/scratch.h"
 
-namespace linkstudy {
+namespace linkstudy::status_test {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 class Directory : public Scratch {};
 
@@ -157,4 +157,4 @@ TEST_F(Status, Of_a_study_killed_at_once_is_nothing_done) {
 }
 
 }  // namespace
-}  // namespace linkstudy
+}  // namespace linkstudy::status_test

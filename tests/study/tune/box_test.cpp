@@ -6,7 +6,7 @@
 #include "study/tune/monotone_proof.h"
 #include "synthetic_error.h"
 
-namespace linkstudy::tuning {
+namespace linkstudy::tuning::box_test {
 namespace {
 
 // Component i has the error tol_i prod_j (k_ij / x_j)^w_ij: it matches where
@@ -244,4 +244,4 @@ TEST(Lockstep, What_an_evaluation_throws_ends_all_and_comes_back) {
 }
 
 }  // namespace
-}  // namespace linkstudy::tuning
+}  // namespace linkstudy::tuning::box_test

@@ -1,6 +1,6 @@
 #include "synthetic_error.h"
 
-namespace linkstudy::tuning {
+namespace linkstudy::tuning::certificate_test {
 namespace {
 
 using testing::SyntheticError;
@@ -126,4 +126,4 @@ TEST_F(ATunedModel, Rests_on_evaluations_at_the_points_it_names) {
 }
 
 }  // namespace
-}  // namespace linkstudy::tuning
+}  // namespace linkstudy::tuning::certificate_test

@@ -3,7 +3,7 @@
 
 #include "synthetic_error.h"
 
-namespace linkstudy::tuning {
+namespace linkstudy::tuning::confirm_nlopt_test {
 namespace {
 
 using testing::decades;
@@ -205,4 +205,4 @@ TEST(NLopt, Leaves_the_reserve_of_the_budget_alone) {
 }
 
 }  // namespace
-}  // namespace linkstudy::tuning
+}  // namespace linkstudy::tuning::confirm_nlopt_test

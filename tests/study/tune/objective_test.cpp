@@ -5,7 +5,7 @@
 #include "study/tune/tuning_result.h"
 #include "synthetic_error.h"
 
-namespace linkstudy::tuning {
+namespace linkstudy::tuning::objective_test {
 namespace {
 
 using Values = std::vector<double>;
@@ -148,4 +148,4 @@ TEST(Objective, The_end_of_the_range_is_no_optimum) {
 }
 
 }  // namespace
-}  // namespace linkstudy::tuning
+}  // namespace linkstudy::tuning::objective_test

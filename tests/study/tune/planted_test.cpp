@@ -9,7 +9,7 @@
 #include "study/tune/monotone_proof.h"
 #include "study/tune/scan_box.h"
 
-namespace linkstudy::tuning::testing {
+namespace linkstudy::tuning::testing::planted_test {
 namespace {
 
 TuningOptions options_of(std::size_t n) {
@@ -397,4 +397,4 @@ TEST(Planted, What_an_evaluation_throws_comes_back_whenever_it_does) {
 }
 
 }  // namespace
-}  // namespace linkstudy::tuning::testing
+}  // namespace linkstudy::tuning::testing::planted_test

@@ -4,7 +4,7 @@
 #include "study/tune/suggest_step.h"
 #include "synthetic_error.h"
 
-namespace linkstudy::tuning {
+namespace linkstudy::tuning::search_test {
 namespace {
 
 using testing::decades;
@@ -175,4 +175,4 @@ TEST(ErrorModel, Never_has_a_negative_coefficient) {
 }
 
 }  // namespace
-}  // namespace linkstudy::tuning
+}  // namespace linkstudy::tuning::search_test

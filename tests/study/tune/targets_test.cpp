@@ -7,7 +7,7 @@
 #include "study/tune/write_tuning.h"
 #include "synthetic_error.h"
 
-namespace linkstudy::tuning {
+namespace linkstudy::tuning::targets_test {
 namespace {
 
 using testing::decades;
@@ -162,4 +162,4 @@ TEST(StepReach, Says_so_where_all_multiples_match) {
 }
 
 }  // namespace
-}  // namespace linkstudy::tuning
+}  // namespace linkstudy::tuning::targets_test

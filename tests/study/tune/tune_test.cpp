@@ -2,7 +2,7 @@
 
 #include "synthetic_error.h"
 
-namespace linkstudy::tuning {
+namespace linkstudy::tuning::tune_test {
 namespace {
 
 using testing::decades;
@@ -405,4 +405,4 @@ TEST(Tune, Refuses_a_problem_it_cannot_solve) {
 }
 
 }  // namespace
-}  // namespace linkstudy::tuning
+}  // namespace linkstudy::tuning::tune_test

@@ -6,7 +6,7 @@
 #include "study/tune/tuning_tables.h"
 #include "synthetic_error.h"
 
-namespace linkstudy::tuning {
+namespace linkstudy::tuning::write_tuning_test {
 namespace {
 
 using nlohmann::json;
@@ -124,4 +124,4 @@ TEST(TuningTables, Hold_every_evaluation_in_the_order_asked) {
 }
 
 }  // namespace
-}  // namespace linkstudy::tuning
+}  // namespace linkstudy::tuning::write_tuning_test
