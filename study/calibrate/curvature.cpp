@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include "core/numerics/dense_instances.h"
 
 namespace linkstudy::calibration {
 namespace {
