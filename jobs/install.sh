@@ -3,7 +3,8 @@
 # Time: 1-2 minutes on a fresh Debian 12, under a second where nothing is missing.
 # Output: the packages that were missing; nothing where none was.
 # As root it installs directly, otherwise through sudo; without either it says what to install.
-# usage: jobs/install.sh [--tests]     --tests: also what tests/run.sh needs (a Slurm, cpack)
+# usage: jobs/install.sh [--tests]
+#        --tests: also what tests/run.sh needs (a Slurm, cpack, a browser)
 set -euo pipefail
 
 packages=(
@@ -12,9 +13,10 @@ packages=(
   libeigen3-dev libboost-dev libboost-program-options-dev
   libtomlplusplus-dev libfmt-dev libspdlog-dev nlohmann-json3-dev
   libgtest-dev libgmock-dev libbenchmark-dev clang-format
+  libjs-chart.js libjs-three
   python3 python3-h5py python3-xarray python3-h5netcdf python3-netcdf4
 )
-if [ "${1:-}" = --tests ]; then packages+=(slurm-wlm munge dpkg-dev file); fi
+if [ "${1:-}" = --tests ]; then packages+=(slurm-wlm munge dpkg-dev file chromium); fi
 
 missing=()
 for package in "${packages[@]}"; do

@@ -42,6 +42,7 @@ struct CommandLine : SessionOptions, CourseRequest {
   std::optional<std::string> h5;
   std::optional<int> ranks;
   double probe_s = 2.0;
+  std::optional<std::uint64_t> evaluation;
 };
 
 // Throws UsageError. The verb "version" or "help" stands for --version and --help alone.

@@ -63,6 +63,14 @@ Rows file_options() {
   using Line = CommandLine;
   return {
       {"output,o", "FILE", "write to this file", fill(&Line::output), {"export", "init"}},
+      {"output,o",
+       "FILE",
+       "write to this file; default: report.html in DIR, or beside FILE.h5",
+       fill(&Line::output),
+       {"report"}},
+      {"evaluation", "N",
+       "show the motion of this one; default: that of the answer, or the best match",
+       fill(&Line::evaluation)},
       {"output,o", "DIR", "results directory", fill(&Line::output)},
       {"set,s", "PATH=VALUE", "set a value of the input; repeatable; * for a name: everywhere",
        fill(&Line::set)},

@@ -1,10 +1,7 @@
 #include "study/cli/verb_table.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <algorithm>
-#include <array>
 #include <string_view>
 
 #include "core/topology/nearest_name.h"
@@ -13,9 +10,6 @@ namespace linkstudy {
 namespace {
 
 constexpr std::size_t kMany = 1000000;
-
-// Verbs that later versions have.
-constexpr std::array kPlanned = {"report"};
 
 std::vector<std::string> run_options(const std::vector<std::string>& own = {}) {
   std::vector<std::string> names = {"output,o",     "set,s",     "seed",     "on-failure",
@@ -112,6 +106,13 @@ std::vector<VerbRow> study_verbs() {
        "prints tables of the results of a directory, or of its results.h5",
        {"list", "table", "columns", "rows", "traces", "format", "output,o"},
        run_export},
+      {"report",
+       "DIR|FILE.h5",
+       1,
+       1,
+       "writes one offline HTML page: verdict, charts, tables and the moving mechanism",
+       {"output,o", "evaluation", "timeout"},
+       run_report},
   };
 }
 
@@ -130,10 +131,6 @@ const std::vector<VerbRow>& verb_rows() {
 const VerbRow& find_verb(const std::string& name) {
   for (const VerbRow& verb : verb_rows())
     if (name == verb.name) return verb;
-  if (std::ranges::find(kPlanned, name) != kPlanned.end()) {
-    throw UsageError(fmt::format("'{}' is not supported in this version; verbs: {}", name,
-                                 fmt::join(verb_names(), ", ")));
-  }
   throw UsageError(
       fmt::format("there is no verb '{}'; {}", name, suggest_name(name, verb_names())));
 }

@@ -39,5 +39,6 @@ int run_converge(const CommandLine& line);
 int run_verify(const CommandLine& line);
 int run_status(const CommandLine& line);
 int run_export(const CommandLine& line);
+int run_report(const CommandLine& line);
 
 }  // namespace linkstudy

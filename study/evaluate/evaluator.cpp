@@ -329,6 +329,12 @@ ModelInput Evaluator::model_at(std::size_t load_case, const std::vector<Value>& 
                                                      to_overrides(parameters_, point)));
 }
 
+std::optional<ModelInput> Evaluator::reference_model_at(std::size_t load_case) const {
+  if (!has_reference(load_case)) return std::nullopt;
+  const LoadCaseInput& one = load_cases_.at(load_case);
+  return read_reference(reference_view(input_, one), one);
+}
+
 struct Evaluator::Attempt {
   explicit Attempt(const Point& point) { result.point = point; }
   Evaluation result;

@@ -50,6 +50,8 @@ class Evaluator {
   const std::string& load_case_name(std::size_t i) const { return load_cases_.at(i).name; }
   // What a point is in a load case. Throws InvalidPoint.
   ModelInput model_at(std::size_t load_case, const std::vector<Value>& point) const;
+  // What the reference is there; nothing where it is no run. Throws ReferenceFailure.
+  std::optional<ModelInput> reference_model_at(std::size_t load_case) const;
   // Whether a load case is compared with a run.
   bool has_reference(std::size_t i) const;
   // Runs the reference of a load case where it is missing. Throws ReferenceFailure; of

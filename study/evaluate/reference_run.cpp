@@ -9,15 +9,6 @@
 namespace linkstudy {
 namespace {
 
-ModelInput read_reference(const StudyInput& input, const LoadCaseInput& load_case) {
-  Diagnostics diagnostics;
-  std::optional<ModelInput> model =
-      input.reference->model->with(reference_overrides(input, load_case), diagnostics);
-  if (model) return std::move(*model);
-  const Diagnostic first = diagnostics.sorted().front();
-  throw ReferenceFailure(Cause::invalid_point, to_string(first));
-}
-
 std::string title_of(const LoadCaseInput& load_case) {
   return load_case.name.empty()
              ? "the reference run"
@@ -95,6 +86,15 @@ std::vector<Trace> reduce_responses(const StudyInput& input, const StudySignals&
 }
 
 }  // namespace
+
+ModelInput read_reference(const StudyInput& view, const LoadCaseInput& load_case) {
+  Diagnostics diagnostics;
+  std::optional<ModelInput> model =
+      view.reference->model->with(reference_overrides(view, load_case), diagnostics);
+  if (model) return std::move(*model);
+  const Diagnostic first = diagnostics.sorted().front();
+  throw ReferenceFailure(Cause::invalid_point, to_string(first));
+}
 
 StudyInput reference_view(const StudyInput& input, const LoadCaseInput& load_case) {
   StudyInput view = input;

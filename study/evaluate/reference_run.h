@@ -27,6 +27,9 @@ inline constexpr long kReferencePoses = 8;
 // signals.
 StudyInput reference_view(const StudyInput& input, const LoadCaseInput& load_case);
 
+// The model of that run, where reference_view is one. Throws ReferenceFailure.
+ModelInput read_reference(const StudyInput& view, const LoadCaseInput& load_case);
+
 // The reference with these values set (a load case). Throws ReferenceFailure.
 ReferenceRecord run_reference(const StudyInput& input, const LoadCaseInput& load_case,
                               const RunLimits& limits);

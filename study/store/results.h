@@ -13,6 +13,12 @@ namespace linkstudy {
 
 enum class RunStatus { running, complete, interrupted };
 
+template <>
+inline constexpr auto kWords<RunStatus> = make_words<RunStatus>({{RunStatus::running, "running"},
+                                                                 {RunStatus::complete, "complete"},
+                                                                 {RunStatus::interrupted,
+                                                                  "interrupted"}});
+
 // Groups of results.h5 for what a verb concludes from its evaluations.
 enum class AnswerKind { tuning, calibration, convergence };
 

@@ -20,7 +20,6 @@ namespace {
 
 constexpr std::string_view kFormat = "linkstudy results";
 constexpr std::int64_t kFormatVersion = 1;
-constexpr std::array<std::string_view, 3> kRunStatusNames = {"running", "complete", "interrupted"};
 
 constexpr std::string_view kReferencePrefix = "reference";
 constexpr std::string_view kDerivedPrefix = "derived_";
@@ -185,11 +184,11 @@ std::vector<TraceSet> read_traces(const Table& parent) {
 }
 
 RunStatus run_status(const std::string& name) {
-  const auto found = std::ranges::find(kRunStatusNames, name);
-  if (found == kRunStatusNames.end()) {
+  const std::optional<RunStatus> found = find_word<RunStatus>(name);
+  if (!found) {
     throw StoreError(fmt::format("unknown status '{}'", name));
   }
-  return static_cast<RunStatus>(found - kRunStatusNames.begin());
+  return *found;
 }
 
 void require_format(const Table& tree) {
@@ -254,16 +253,15 @@ Table tree_of(const StudyResults& results) {
   const std::vector<Evaluation> evaluations = latest_by_id(results.evaluations);
   const StudyDescription& description = results.description;
   Table root;
-  root.attributes = {
-      {"format", std::string(kFormat)},
-      {"format_version", kFormatVersion},
-      {"status", std::string(kRunStatusNames[static_cast<std::size_t>(results.status)])},
-      {"input_sha256", results.input_sha256},
-      {"results_digest",
-       results_digest(description.parameters, description.responses, evaluations)},
-      {"seed", description.seed},
-      {"program_version", results.program_version},
-      {"git_revision", results.git_revision}};
+  root.attributes = {{"format", std::string(kFormat)},
+                     {"format_version", kFormatVersion},
+                     {"status", std::string(name_of(results.status))},
+                     {"input_sha256", results.input_sha256},
+                     {"results_digest",
+                      results_digest(description.parameters, description.responses, evaluations)},
+                     {"seed", description.seed},
+                     {"program_version", results.program_version},
+                     {"git_revision", results.git_revision}};
   root.parts.push_back(study_group(description, evaluations));
   add_groups(root, "reference", trace_groups(results.references));
   add_groups(root, "traces", trace_groups(results.traces));

@@ -4,6 +4,8 @@
 usage: configs_test.py LINKSTUDY TREE [options of unittest]
 """
 
+import json
+import re
 import subprocess
 import sys
 import tempfile
@@ -109,6 +111,13 @@ class Configs(unittest.TestCase):
                 codes = {"tune": (0, 4), "converge": (0, 5)}
                 self.assertIn(done.returncode, codes.get(kind, (0,)), done.stderr)
                 self.assertTrue(Path(folder, "results", "results.h5").exists())
+                made = run("report", f"{folder}/results")
+                self.assertEqual((0, ""), (made.returncode, made.stderr))
+                page = Path(folder, "results", "report.html").read_text()
+                data = json.loads(re.search(r'id="data">(.*?)</script>', page, re.S)[1])
+                self.assertGreater(data["counts"]["ok"], 0)
+                self.assertTrue(all(one["poses"] for one in data["mechanisms"]))
+                self.assertTrue(data["mechanisms"] and data["histories"])
 
     def test_the_readme_is_the_key_reference(self):
         done = run("describe", "--markdown")

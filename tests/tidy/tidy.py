@@ -15,7 +15,7 @@ from pathlib import Path
 CORE = """base numerics spatial laws topology flexible model kinematics forces closures dynamics
           simulation""".split()
 STUDY = """record config specialize design metrics evaluate schedule tune converge calibrate store
-           report kinematics session plan cli""".split()
+           report kinematics session plan page cli""".split()
 LAYERS = [f"core/{name}" for name in CORE] + [f"study/{name}" for name in STUDY]
 
 # Headers of a library, and the only places of core/ and study/ that include them.

@@ -1,0 +1,72 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "study/metrics/response_list.h"
+#include "study/page/moving_run.h"
+#include "study/page/stored_answer.h"
+#include "study/record/digest.h"
+
+namespace linkstudy {
+namespace {
+
+using Id = std::optional<std::uint64_t>;
+
+Id id_in(const nlohmann::json& json) {
+  const auto found = json.find("evaluation");
+  const bool is_id = found != json.end() && found->is_number_unsigned();
+  return is_id ? Id(found->get<std::uint64_t>()) : std::nullopt;
+}
+
+// Of a tune the binding one, of a fit the best; of several answers the first that has one.
+Id id_of(const nlohmann::json& answer) {
+  if (!answer.is_object()) return std::nullopt;
+  if (const Id own = id_in(answer)) return own;
+  if (answer.contains("binding") && answer["binding"].is_object()) return id_in(answer["binding"]);
+  if (!answer.contains("answers")) return std::nullopt;
+  for (const auto& one : answer["answers"])
+    if (const Id found = id_of(one)) return found;
+  return std::nullopt;
+}
+
+std::vector<std::size_t> error_columns(const StudyDescription& description) {
+  std::vector<std::size_t> columns;
+  for (const StoredCase& one : split_responses(description.responses)) {
+    for (const StoredErrors& errors : one.matches) {
+      for (std::size_t c = 0; c < errors.channels.size(); ++c) columns.push_back(errors.max + c);
+    }
+  }
+  return columns;
+}
+
+}  // namespace
+
+nlohmann::json stored_answer(const StudyResults& results) {
+  if (results.answers.empty()) return nullptr;
+  const Attribute* text = find_attribute(results.answers.front().tables, "answer");
+  if (text == nullptr) return nullptr;
+  return nlohmann::json::parse(std::get<std::string>(text->value), nullptr, false);
+}
+
+std::optional<std::uint64_t> choose_shown(const StudyResults& results) {
+  if (const Id found = id_of(stored_answer(results))) return found;
+  const std::vector<std::size_t> columns = error_columns(results.description);
+  Id best;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Evaluation& one : latest_by_id(results.evaluations)) {
+    if (one.status != Cause::ok) continue;
+    double worst = 0.0;
+    for (const std::size_t c : columns) {
+      if (c < one.responses.size()) worst = std::fmax(worst, std::abs(one.responses[c]));
+    }
+    // Without errors the last: of a refinement the finest.
+    if (!best || worst < least || columns.empty()) {
+      best = one.point.id;
+      least = worst;
+    }
+  }
+  return best;
+}
+
+}  // namespace linkstudy

@@ -1,0 +1,20 @@
+// The mechanism of a run as the page draws it: what is attached to every link and where, in link
+// frames, and the poses of the links over time.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "study/page/moving_run.h"
+
+namespace linkstudy {
+
+// {"title", "load_case", "history": name of its histories, "ended",
+//   "links": [{"name", "mass", "center"}],
+//  "joints": [{"name", "type", "parent", "child", "parent_frame", "child_frame"}],
+//  "closures": [{"name", "type", "model", "first", "second", "first_frame", "second_frame"}],
+//  "points": [{"name", "link", "position"}], "times", "poses"}
+// Links are numbers in "links". A frame is [x, y, z, qw, qx, qy, qz]. Poses: 32-bit numbers in
+// base64, seven a link as in a frame, link by link, instant by instant; m.
+nlohmann::ordered_json mechanism_json(const MovingRun& run);
+
+}  // namespace linkstudy

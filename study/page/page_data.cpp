@@ -1,0 +1,206 @@
+#include "study/page/page_data.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "study/metrics/response_list.h"
+#include "study/page/mechanism_json.h"
+#include "study/page/stored_answer.h"
+#include "study/page/thin.h"
+#include "study/record/base64.h"
+#include "study/record/digest.h"
+#include "study/record/json_number.h"
+#include "study/report/results_tables.h"
+
+namespace linkstudy {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kSamples = 600000;     // of all histories together: some 3 MB
+constexpr std::size_t kFewestSamples = 400;  // of one history; rather fewer histories than less
+constexpr std::size_t kMostHistories = 200;
+
+Json cells_of(const Column& column) {
+  Json cells = Json::array();
+  std::visit(
+      [&](const auto& values) {
+        using Cell = typename std::decay_t<decltype(values)>::value_type;
+        for (const auto& value : values) {
+          if constexpr (std::is_same_v<Cell, double>) {
+            cells.push_back(json_number(value));
+          } else if constexpr (std::is_same_v<Cell, std::uint8_t>) {
+            const bool has_word = value < column.words.size();
+            cells.push_back(has_word ? Json(column.words[value]) : Json(value));
+          } else {
+            cells.push_back(value);
+          }
+        }
+      },
+      column.values);
+  return cells;
+}
+
+Json tables_of(const StudyResults& results) {
+  Json all = Json::array();
+  for (const ResultsTable& row : results_tables()) {
+    if (row.name == "traces") continue;
+    const std::optional<Table> table = row.make(results);
+    if (!table) continue;
+    Json columns = Json::array();
+    for (const Column& column : table->columns) {
+      columns.push_back({{"name", column.name},
+                         {"unit", column.unit},
+                         {"meaning", column.meaning},
+                         {"role", column.role},
+                         {"values", cells_of(column)}});
+    }
+    all.push_back({{"name", row.name}, {"holds", row.holds}, {"columns", columns}});
+  }
+  return all;
+}
+
+Json matches_of(const StudyResults& results) {
+  Json all = Json::array();
+  for (const StoredCase& one : split_responses(results.description.responses)) {
+    for (const StoredErrors& errors : one.matches) {
+      Json columns = Json::array();
+      for (std::size_t c = 0; c < errors.channels.size(); ++c) {
+        columns.push_back(results.description.responses[errors.max + c].name);
+      }
+      all.push_back(
+          {{"load_case", one.load_case}, {"channels", errors.channels}, {"columns", columns}});
+    }
+  }
+  return all;
+}
+
+Json counts_of(const std::vector<Evaluation>& evaluations) {
+  Json failed = Json::object();
+  std::size_t ok = 0;
+  for (const Evaluation& one : evaluations) {
+    if (one.status == Cause::ok) {
+      ++ok;
+    } else {
+      const std::string cause(name_of(one.status));
+      failed[cause] = failed.value(cause, 0) + 1;
+    }
+  }
+  return {{"evaluations", evaluations.size()}, {"ok", ok}, {"failed", failed}};
+}
+
+bool is_coordinate(const std::string& channel) {
+  return channel.starts_with("joint.") &&
+         (channel.ends_with(".q") || channel.find(".q.") != std::string::npos);
+}
+
+Json channel_of(const Trace& trace, std::size_t count) {
+  if (is_coordinate(trace.name) || trace.values.size() <= count) {
+    return {{"name", trace.name},
+            {"unit", trace.unit},
+            {"rows", nullptr},
+            {"values", base64_floats(trace.values)}};
+  }
+  const std::vector<std::uint32_t> rows = thin_rows(trace.values, count);
+  std::vector<double> values;
+  for (const std::uint32_t row : rows) values.push_back(trace.values[row]);
+  return {{"name", trace.name},
+          {"unit", trace.unit},
+          {"rows", base64_indices(rows)},
+          {"values", base64_floats(values)}};
+}
+
+struct Shown {
+  const TraceSet* set;
+  bool is_again;
+};
+
+Json history_of(const Shown& shown, std::size_t count) {
+  const auto time = std::ranges::find(shown.set->traces, "time", &Trace::name);
+  Json channels = Json::array();
+  for (const Trace& trace : shown.set->traces) {
+    if (trace.name != "time") channels.push_back(channel_of(trace, count));
+  }
+  return {{"name", shown.set->name},
+          {"evaluation", shown.set->evaluation},
+          {"is_again", shown.is_again},
+          {"time", base64_floats(time->values)},
+          {"channels", channels}};
+}
+
+// Runs that were made again stand first, then what is stored of others.
+std::vector<Shown> histories_of(const StudyResults& results, const MovingRuns& again) {
+  std::vector<Shown> all;
+  const auto add = [&](const TraceSet& set, bool is_again) {
+    const bool has_time = std::ranges::find(set.traces, "time", &Trace::name) != set.traces.end();
+    if (has_time && set.traces.size() > 1) all.push_back({&set, is_again});
+  };
+  for (const MovingRun& run : again.runs) add(run.histories, true);
+  const auto is_stored_too = [&](const TraceSet& set) {
+    return std::ranges::any_of(again.runs, [&](const MovingRun& run) {
+      return run.histories.name == set.name && !run.histories.traces.empty();
+    });
+  };
+  for (const std::vector<TraceSet>* sets : {&results.references, &results.traces}) {
+    for (const TraceSet& set : *sets)
+      if (!is_stored_too(set)) add(set, false);
+  }
+  return all;
+}
+
+void add_histories(Json& page, const StudyResults& results, const MovingRuns& again) {
+  std::vector<Shown> shown = histories_of(results, again);
+  if (shown.size() > kMostHistories) {
+    page["notes"].push_back(
+        fmt::format("time histories of {} of {} runs are shown; the results "
+                    "hold all (linkstudy export --table traces)",
+                    kMostHistories, shown.size()));
+    shown.resize(kMostHistories);
+  }
+  std::size_t channels = 1;
+  for (const Shown& one : shown) channels += one.set->traces.size() - 1;
+  const std::size_t count = std::max(kFewestSamples, kSamples / channels);
+  page["histories"] = Json::array();
+  for (const Shown& one : shown) page["histories"].push_back(history_of(one, count));
+}
+
+std::string escaped(std::string text) {
+  std::string safe;
+  safe.reserve(text.size());
+  for (const char c : text) safe += c == '<' ? std::string("\\u003c") : std::string(1, c);
+  return safe;
+}
+
+}  // namespace
+
+std::string page_json(const StudyResults& results, const MovingRuns& again) {
+  const std::vector<Evaluation> evaluations = latest_by_id(results.evaluations);
+  Json page = {{"format", 1},
+               {"name", results.description.name},
+               {"kind", results.description.kind},
+               {"status", name_of(results.status)},
+               {"digest", results_digest(results.description.parameters,
+                                         results.description.responses, evaluations)},
+               {"program", results.program_version},
+               {"revision", results.git_revision},
+               {"input", results.input_sha256},
+               {"seed", results.description.seed},
+               {"dropped", results.dropped},
+               {"counts", counts_of(evaluations)},
+               {"answer", stored_answer(results)},
+               {"tables", tables_of(results)},
+               {"matches", matches_of(results)},
+               {"texts", Json::array()},
+               {"notes", again.notes},
+               {"mechanisms", Json::array()}};
+  for (const NamedText& text : results.texts) {
+    page["texts"].push_back({{"name", text.name}, {"text", text.text}});
+  }
+  add_histories(page, results, again);
+  for (const MovingRun& run : again.runs) page["mechanisms"].push_back(mechanism_json(run));
+  return escaped(page.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
+}  // namespace linkstudy

@@ -1,0 +1,24 @@
+// Everything a report page shows, as one JSON object: the page itself only draws.
+#pragma once
+
+#include <string>
+
+#include "study/page/moving_run.h"
+
+namespace linkstudy {
+
+// {"format": 1, "name", "kind", "status", "digest", "program", "revision", "input", "seed",
+//  "dropped", "counts": {"evaluations", "ok", "failed": {cause: count}}, "answer": object or null,
+//  "tables": [{"name", "holds", "columns": [{"name", "unit", "meaning", "role", "values"}]}],
+//  "matches": [{"load_case", "channels", "columns": names of their largest errors}],
+//  "texts": [{"name", "text"}], "notes": [...],
+//  "histories": [{"name", "evaluation", "is_again", "time", "channels": [{"name", "unit", "rows",
+//                 "values"}]}],
+//  "mechanisms": [mechanism_json]}
+// Tables are those of `export` but for the traces, numbers with all digits, missing ones null; the
+// histories are the traces, thinned (thin.h) where they are long: "values" belong to "rows" of
+// "time" (null: all), 32-bit numbers in base64. The joint coordinates keep every row: other
+// channels are drawn over them. Safe inside <script>: '<' is escaped.
+std::string page_json(const StudyResults& results, const MovingRuns& again);
+
+}  // namespace linkstudy

@@ -1,0 +1,136 @@
+// Time histories of runs: any group of channels, over time or over a joint coordinate.
+
+function channelGroup(name) {
+  return name.replace(/\.(x|y|z|\d+)$/, "");
+}
+
+class History {
+  constructor(stored) {
+    this.name = stored.name;
+    this.isAgain = stored.is_again;
+    this.time = decode(stored.time, Float32Array);
+    this.channels = new Map(stored.channels.map((channel) => [channel.name, channel]));
+    this.decoded = new Map();
+  }
+
+  // {rows, values}: of which instants, and what.
+  samples(name) {
+    if (!this.decoded.has(name)) {
+      const channel = this.channels.get(name);
+      this.decoded.set(name, {
+        values: decode(channel.values, Float32Array),
+        rows: channel.rows ? decode(channel.rows, Uint32Array) : null});
+    }
+    return this.decoded.get(name);
+  }
+
+  // Of a channel over time or over a coordinate, which has all rows.
+  curve(name, over) {
+    const {values, rows} = this.samples(name);
+    const axis = over === "time" ? this.time : this.samples(over).values;
+    const x = rows ? Array.from(rows, (row) => axis[row]) : Array.from(axis);
+    return {x, y: Array.from(values)};
+  }
+
+  // Value at an instant, by rows.
+  at(name, row) {
+    const {values, rows} = this.samples(name);
+    if (!rows) return values[row];
+    let [low, high] = [0, rows.length - 1];
+    while (high - low > 1) {
+      const middle = (low + high) >> 1;
+      if (rows[middle] <= row) low = middle; else high = middle;
+    }
+    return row - rows[low] <= rows[high] - row ? values[low] : values[high];
+  }
+}
+
+const histories = data.histories.map((stored) => new History(stored));
+
+// What was matched first, then closures, then the rest.
+function historyGroups() {
+  const names = distinct(histories.flatMap((one) => [...one.channels.keys()]));
+  const matched = data.matches.flatMap((match) => match.channels);
+  const rank = (name) => matched.includes(name) ? 0
+    : /^closure\..*(force|torque)\./.test(name) ? 1 : name.startsWith("closure.") ? 2 : 3;
+  return distinct(names.map((name, i) => [rank(name), i, channelGroup(name)])
+    .sort((a, b) => a[0] - b[0] || a[1] - b[1]).map((one) => one[2]));
+}
+
+// The run that was made again and its reference, else the first two.
+function usualRuns() {
+  const again = histories.filter((one) => one.isAgain);
+  return (again.length ? again : histories.slice(0, 2)).map((one) => one.name);
+}
+
+function historyCurves(group, over, runs) {
+  const series = [];
+  const members = distinct(histories.flatMap((one) => [...one.channels.keys()]))
+    .filter((name) => channelGroup(name) === group);
+  runs.forEach((run, r) => {
+    const history = histories.find((one) => one.name === run);
+    members.forEach((name, i) => {
+      const isThere = history.channels.has(name) &&
+                      (over === "time" || history.channels.has(over));
+      if (!isThere) return;
+      series.push({name: `${name}, ${run}`, ...history.curve(name, over), line: true, plain: true,
+                   style: i, dash: kDashes[r % kDashes.length], thin: true});
+    });
+  });
+  return series;
+}
+
+function unitOf(channel) {
+  const history = histories.find((one) => one.channels.has(channel));
+  return history ? history.channels.get(channel).unit : "";
+}
+
+function extremesOf(series) {
+  return series.map((one) => {
+    const values = one.y.filter(Number.isFinite);
+    const [low, high] = values.reduce(([a, b], v) => [Math.min(a, v), Math.max(b, v)],
+                                      [Infinity, -Infinity]);
+    return `${one.name}: ${shown(low)} to ${shown(high)}`;
+  }).join("; ");
+}
+
+function historyFigure(group, over, runs) {
+  const series = historyCurves(group, over, runs);
+  const first = series.length ? series[0].name.split(", ")[0] : group;
+  return {title: `${group} over ${over}`,
+          summary: `${extremesOf(series.slice(0, 9))}.`,
+          x: {label: withUnit(over, over === "time" ? "s" : unitOf(over))},
+          y: {label: withUnit(group, unitOf(first))}, series};
+}
+
+function addHistories(main) {
+  if (!histories.length) return;
+  const groups = historyGroups();
+  const overs = ["time", ...distinct(histories.flatMap((one) => [...one.channels.keys()]))
+    .filter((name) => /^joint\.[^.]+\.q(\.\d+)?$/.test(name))];
+  const again = histories.filter((one) => one.isAgain).map((one) => one.name);
+  const section = addSection(main, "Time histories", again.length
+    ? `All channels of ${again.join(" and ")} come from the stored input, run again; others are ` +
+      "as they were stored."
+    : "As they were stored.");
+  const grid = addFigures(section, true);
+  const twin = historyPanel(grid, groups, overs, groups[0], "time");
+  if (overs.length > 1 && again.length) historyPanel(grid, groups, overs, groups[0], overs[1]);
+  return twin;
+}
+
+function historyPanel(grid, groups, overs, group, over) {
+  const chosen = new Set(usualRuns());
+  const redraw = () => draw(figure, historyFigure(what.list.value, across.list.value,
+    histories.map((one) => one.name).filter((name) => chosen.has(name))));
+  const what = choice("show", groups, group, redraw);
+  const across = choice("over", overs, over, redraw);
+  const boxes = histories.slice(0, 24).map((one) => make("label", {}, make("input", {
+    type: "checkbox", checked: chosen.has(one.name), onchange: (event) => {
+      if (event.target.checked) chosen.add(one.name); else chosen.delete(one.name);
+      redraw();
+    }}), one.isAgain ? `${one.name} (run again)` : one.name));
+  const figure = addFigure(grid, historyFigure(group, over, [...chosen]),
+    make("div", {class: "controls"}, what.element, across.element, ...boxes));
+  return figure;
+}

@@ -1,0 +1,245 @@
+// The mechanism in motion. Links are bars from joint to joint with a ball at their centre of mass,
+// joints are shapes by type, closures show both of their frames, the gap between them and the
+// force there. Runs lie over each other: the second is drawn as wires.
+
+const kSpeeds = [0.1, 0.25, 0.5, 1, 2, 5];
+const kViews = {oblique: [1, -1.4, 0.9], "along x": [1, 0, 0], "along y": [0, -1, 0],
+                "along z": [0, -0.001, 1]};
+
+const kSliding = ["prismatic", "cylindrical", "screw", "planar"];
+
+function frameMatrix(numbers, offset = 0) {
+  const [x, y, z, w, i, j, k] = numbers.slice(offset, offset + 7);
+  return new THREE.Matrix4().compose(new THREE.Vector3(x, y, z),
+    new THREE.Quaternion(i, j, k, w), new THREE.Vector3(1, 1, 1));
+}
+
+function positionOf(frame) {
+  return new THREE.Vector3(frame[0], frame[1], frame[2]);
+}
+
+class Mechanism {
+  constructor(stored, isGhost) {
+    this.stored = stored;
+    this.isGhost = isGhost;
+    this.times = decode(stored.times, Float32Array);
+    this.poses = decode(stored.poses, Float32Array);
+    this.history = histories.find((one) => one.isAgain && one.name === stored.history) ?? null;
+    this.size = this.extent();
+    this.root = new THREE.Group();
+    this.links = stored.links.map((link, i) => this.addLink(link, i));
+    stored.joints.forEach((joint) => this.addJoint(joint));
+    this.rails = stored.joints.filter((joint) => kSliding.includes(joint.type))
+      .map((joint) => this.addRail(joint));
+    this.closures = stored.closures.map((closure) => this.addClosure(closure));
+    stored.points.forEach((point) => this.addPath(point));
+    this.show(this.times[0]);
+  }
+
+  // Half of the diagonal of the box in which joints, centres of mass and points move.
+  extent() {
+    const box = new THREE.Box3();
+    const {joints, closures, links, points} = this.stored;
+    const add = (link, place) => {
+      for (let i = 0; i < this.times.length; i += Math.ceil(this.times.length / 60)) {
+        box.expandByPoint(place.clone().applyMatrix4(this.poseAt(link, i)));
+      }
+    };
+    joints.forEach((joint) => add(joint.parent, positionOf(joint.parent_frame)));
+    closures.forEach((one) => add(one.first, positionOf(one.first_frame)));
+    points.forEach((point) => add(point.link, new THREE.Vector3(...point.position)));
+    links.forEach((link, i) => link.center && add(i, new THREE.Vector3(...link.center)));
+    this.box = box;
+    return Math.max(box.getSize(new THREE.Vector3()).length() / 2, 1e-6);
+  }
+
+  poseAt(link, instant) {
+    return frameMatrix(this.poses, 7 * (instant * this.stored.links.length + link));
+  }
+
+  material(colour) {
+    return new THREE.MeshStandardMaterial({color: colour, roughness: 0.6, metalness: 0.1,
+      wireframe: this.isGhost, transparent: this.isGhost, opacity: this.isGhost ? 0.5 : 1});
+  }
+
+  place(parent, geometry, colour, matrix) {
+    const mesh = new THREE.Mesh(geometry, this.material(colour));
+    mesh.applyMatrix(matrix);
+    parent.add(mesh);
+    return mesh;
+  }
+
+  bar(parent, from, to, radius, colour) {
+    const along = to.clone().sub(from);
+    if (along.length() < 1e-3 * this.size) return;
+    const turn = new THREE.Quaternion().setFromUnitVectors(new THREE.Vector3(0, 1, 0),
+      along.clone().normalize());
+    const geometry = new THREE.CylinderBufferGeometry(radius, radius, along.length(), 10);
+    this.place(parent, geometry, colour, new THREE.Matrix4().compose(
+      from.clone().addScaledVector(along, 0.5), turn, new THREE.Vector3(1, 1, 1)));
+  }
+
+  // Where something is attached, in the link frame; where its tree joint holds it comes first.
+  attachments(link) {
+    const {joints, closures} = this.stored;
+    return [
+      ...joints.filter((j) => j.child === link).map((j) => positionOf(j.child_frame)),
+      ...joints.filter((j) => j.parent === link).map((j) => positionOf(j.parent_frame)),
+      ...closures.filter((c) => c.first === link).map((c) => positionOf(c.first_frame)),
+      ...closures.filter((c) => c.second === link).map((c) => positionOf(c.second_frame))];
+  }
+
+  addLink(link, i) {
+    const group = new THREE.Group();
+    group.matrixAutoUpdate = false;
+    this.root.add(group);
+    if (!link.center) return group;  // ground
+    const colour = kColours[(i - 1) % kColours.length];
+    const [from, ...rest] = this.attachments(i);
+    const center = new THREE.Vector3(...link.center);
+    for (const to of rest.length ? rest : [center]) {
+      this.bar(group, from ?? center, to, 0.018 * this.size, colour);
+    }
+    this.place(group, new THREE.SphereBufferGeometry(0.028 * this.size, 14, 10), colour,
+               new THREE.Matrix4().setPosition(center));
+    return group;
+  }
+
+  jointShape(type) {
+    const r = 0.045 * this.size;
+    const lying = (geometry) => geometry.rotateX(Math.PI / 2);  // along z
+    const shapes = {
+      revolute: () => lying(new THREE.CylinderBufferGeometry(r, r, 2.2 * r, 16)),
+      prismatic: () => new THREE.BoxBufferGeometry(1.5 * r, 1.5 * r, 3 * r),
+      cylindrical: () => lying(new THREE.CylinderBufferGeometry(0.8 * r, 0.8 * r, 3.5 * r, 16)),
+      screw: () => lying(new THREE.CylinderBufferGeometry(0.8 * r, 0.4 * r, 3.5 * r, 8)),
+      universal: () => new THREE.OctahedronBufferGeometry(1.4 * r),
+      spherical: () => new THREE.SphereBufferGeometry(1.1 * r, 16, 12),
+      planar: () => new THREE.BoxBufferGeometry(3 * r, 3 * r, 0.4 * r),
+      fixed: () => new THREE.BoxBufferGeometry(r, r, r),
+    };
+    return shapes[type] ? shapes[type]() : new THREE.TetrahedronBufferGeometry(r);
+  }
+
+  addJoint(joint) {
+    if (joint.type === "free") return;
+    const matrix = frameMatrix(joint.parent_frame);
+    this.place(this.links[joint.parent], this.jointShape(joint.type), "#8a9099", matrix);
+  }
+
+  // From where a joint is to where it has slid.
+  addRail(joint) {
+    const line = this.addLine("#8a9099");
+    return {line, ends: [{link: joint.parent, local: frameMatrix(joint.parent_frame)},
+                         {link: joint.child, local: frameMatrix(joint.child_frame)}]};
+  }
+
+  addLine(colour) {
+    const line = new THREE.Line(new THREE.BufferGeometry().setFromPoints(
+      [new THREE.Vector3(), new THREE.Vector3()]), new THREE.LineBasicMaterial({color: colour}));
+    line.frustumCulled = false;
+    this.root.add(line);
+    return line;
+  }
+
+  placesOf(ends) {
+    return ends.map(({link, local}) => new THREE.Vector3()
+      .setFromMatrixPosition(this.links[link].matrix.clone().multiply(local)));
+  }
+
+  // The axis of a closure is its x.
+  addClosure(closure) {
+    const turn = new THREE.Matrix4().makeRotationY(Math.PI / 2);
+    const ends = [[closure.first, closure.first_frame], [closure.second, closure.second_frame]];
+    const frames = ends.map(([link, frame], i) => {
+      const matrix = frameMatrix(frame);
+      const mesh = this.place(this.links[link], this.jointShape(closure.type),
+                              i === 0 ? "#d55e00" : "#0072b2", matrix.clone().multiply(turn));
+      mesh.scale.setScalar(i === 0 ? 0.8 : 1.05);
+      mesh.material.transparent = true;
+      mesh.material.opacity = i === 0 ? 1 : 0.4;
+      const axes = new THREE.AxesHelper(0.15 * this.size);
+      axes.applyMatrix(matrix);
+      this.links[link].add(axes);
+      return {link, local: matrix};
+    });
+    const gap = this.addLine("#cc79a7");
+    const arrow = new THREE.ArrowHelper(new THREE.Vector3(0, 0, 1), new THREE.Vector3(), 1,
+                                        this.isGhost ? "#56b4e9" : "#d55e00");
+    this.root.add(arrow);
+    return {name: closure.name, frames, gap, arrow, largest: this.largestForce(closure.name)};
+  }
+
+  forceNames(closure) {
+    const names = ["x", "y", "z"].map((axis) => `closure.${closure}.force.${axis}`);
+    return this.history && names.every((name) => this.history.channels.has(name)) ? names : null;
+  }
+
+  largestForce(closure) {
+    const names = this.forceNames(closure);
+    if (!names) return 0;
+    return Math.max(...names.map((name) => this.history.samples(name).values.reduce(
+      (most, value) => (Number.isFinite(value) ? Math.max(most, Math.abs(value)) : most), 0)));
+  }
+
+  // The way of a watched point over the whole run.
+  addPath(point) {
+    const places = [];
+    for (let i = 0; i < this.times.length; ++i) {
+      places.push(new THREE.Vector3(...point.position).applyMatrix4(this.poseAt(point.link, i)));
+    }
+    this.root.add(new THREE.Line(new THREE.BufferGeometry().setFromPoints(places),
+      new THREE.LineBasicMaterial({color: this.isGhost ? "#56b4e9" : "#009e73"})));
+  }
+
+  instantOf(time) {
+    const last = this.times.length - 1;
+    let [low, high] = [0, last];
+    while (high - low > 1) {
+      const middle = (low + high) >> 1;
+      if (this.times[middle] <= time) low = middle; else high = middle;
+    }
+    const width = this.times[high] - this.times[low];
+    const part = width > 0 ? Math.min(Math.max((time - this.times[low]) / width, 0), 1) : 0;
+    return {low, high, part};
+  }
+
+  show(time) {
+    const {low, high, part} = this.instantOf(time);
+    const [p, q, s] = [new THREE.Vector3(), new THREE.Quaternion(), new THREE.Vector3()];
+    const [p2, q2] = [new THREE.Vector3(), new THREE.Quaternion()];
+    this.links.forEach((group, i) => {
+      this.poseAt(i, low).decompose(p, q, s);
+      this.poseAt(i, high).decompose(p2, q2, s);
+      group.matrix.compose(p.lerp(p2, part), q.slerp(q2, part), s);
+      group.matrixWorldNeedsUpdate = true;
+    });
+    this.rails.forEach((rail) => rail.line.geometry.setFromPoints(this.placesOf(rail.ends)));
+    this.closures.forEach((closure) => this.showClosure(closure, time));
+  }
+
+  showClosure(closure, time) {
+    const ends = this.placesOf(closure.frames);
+    closure.gap.geometry.setFromPoints(ends);
+    const names = closure.largest > 0 ? this.forceNames(closure.name) : null;
+    const row = names ? nearestRow(this.history.time, time) : 0;
+    const force = names ? new THREE.Vector3(...names.map((n) => this.history.at(n, row))) : null;
+    const isThere = force !== null && force.length() > 1e-3 * closure.largest;
+    closure.arrow.visible = isThere;
+    if (!isThere) return;
+    closure.arrow.position.copy(ends[0]);
+    closure.arrow.setDirection(force.clone().normalize());
+    const length = 0.8 * this.size * force.length() / closure.largest;
+    closure.arrow.setLength(length, Math.min(0.3 * length, 0.08 * this.size),
+                            Math.min(0.15 * length, 0.04 * this.size));
+  }
+}
+
+function nearestRow(times, time) {
+  let [low, high] = [0, times.length - 1];
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (times[middle] <= time) low = middle; else high = middle;
+  }
+  return time - times[low] <= times[high] - time ? low : high;
+}

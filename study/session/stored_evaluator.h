@@ -1,0 +1,14 @@
+// What runs the evaluations of results again, from what they hold of their input.
+#pragma once
+
+#include <memory>
+
+#include "study/evaluate/evaluator.h"
+#include "study/store/results.h"
+
+namespace linkstudy {
+
+// Throws StoreError (results too old, other columns than this program has) and InputError.
+std::unique_ptr<Evaluator> make_stored_evaluator(const StudyResults& results);
+
+}  // namespace linkstudy
