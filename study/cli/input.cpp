@@ -2,11 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "study/config/input_error.h"
+#include "study/config/toml_writer.h"
 #include "study/config/unit.h"
+#include "study/report/choose_table.h"
 #include "study/report/console.h"
+#include "study/session/single_run.h"
 
 namespace linkstudy {
 namespace {
@@ -41,6 +45,20 @@ void apply_run_options(const CommandLine& line, RunOptions& run) {
   }
 }
 
+// "closure.S" of "closure.S.force.x", "energy" of "energy.kinetic"; each once.
+std::vector<std::string> groups_of(const Series& series) {
+  std::vector<std::string> groups;
+  for (const Channel& channel : series.channels) {
+    if (channel.quantity == Quantity::time) continue;
+    const std::size_t owner = channel.name.find('.');
+    const bool is_energy = channel.name.starts_with("energy.");
+    const std::string group =
+        channel.name.substr(0, is_energy ? owner : channel.name.find('.', owner + 1));
+    if (std::ranges::find(groups, group) == groups.end()) groups.push_back(group);
+  }
+  return groups;
+}
+
 }  // namespace
 
 ModelInput read_model_input(const CommandLine& line) {
@@ -61,6 +79,31 @@ StudyInput read_study_input(const CommandLine& line) {
   if (line.batch) texts.push_back(fmt::format("search.batch={}", *line.batch));
   const std::vector<Override> set = parse_sets(texts, diagnostics);
   std::optional<StudyInput> input = read_study(line.inputs.front(), set, diagnostics);
+  throw_if_any(diagnostics);
+  apply_run_options(line, input->run);
+  return std::move(*input);
+}
+
+StudyInput read_model_as_study(const CommandLine& line) {
+  const ModelInput model = read_model_input(line);
+  const Series series = choose_series(model, line.signals);
+  Tree signals = Tree::make_array();
+  for (const std::string& one : line.signals ? split_list(*line.signals) : groups_of(series)) {
+    signals.items.push_back(Tree::make_text(one));
+  }
+  Tree trace = Tree::make_table();
+  trace.set("signals", std::move(signals));
+  Tree study = Tree::make_table();
+  study.set("format", Tree::make_integer(1));
+  study.set("kind", Tree::make_text(std::string(name_of(FileKind::study))));
+  study.set("name", Tree::make_text(model.name));
+  study.set("model", Tree::make_text(line.inputs.front()));
+  study.set("trace", Tree::make_array({std::move(trace)}));
+  Diagnostics diagnostics;  // the model was read before
+  const auto document = ModelDocument::load(line.inputs.front(), diagnostics)
+                            ->edited(parse_sets(line.set, diagnostics), diagnostics);
+  std::optional<StudyInput> input = read_study(
+      {write_toml(study), write_toml(document->tree()), "", {}}, line.inputs.front(), diagnostics);
   throw_if_any(diagnostics);
   apply_run_options(line, input->run);
   return std::move(*input);

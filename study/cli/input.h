@@ -14,6 +14,9 @@ ModelInput read_model_input(const CommandLine& line);
 // --on-failure replace what its [run] says.
 StudyInput read_study_input(const CommandLine& line, FileKind kind);
 
+// A model as a study of one evaluation that keeps the histories of --signals, or of all channels.
+StudyInput read_model_as_study(const CommandLine& line);
+
 // The same of a file of any kind but model.
 StudyInput read_study_input(const CommandLine& line);
 

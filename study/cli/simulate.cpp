@@ -5,6 +5,7 @@
 #include "core/base/isa.h"
 #include "study/cli/asked_file.h"
 #include "study/cli/input.h"
+#include "study/cli/run_points.h"
 #include "study/cli/verb_table.h"
 #include "study/report/console.h"
 #include "study/report/model_report.h"
@@ -22,10 +23,19 @@ double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
+// As a study of one evaluation: stored, exported, verified and reported like any other.
+int run_into_directory(const CommandLine& line) {
+  require(!line.csv,
+          "--csv with -o: the histories are in the directory; linkstudy export DIR "
+          "--table traces --format csv prints them");
+  return run_points(line, [&] { return read_model_as_study(line); });
+}
+
 }  // namespace
 
 int run_simulate(const CommandLine& line) {
   simd_level();  // a wrong LINKSTUDY_SIMD or LINKSTUDY_LANES ends the program here
+  if (line.output) return run_into_directory(line);
   require_writable("--csv", line.csv);
   const ModelInput input = read_model_input(line);
   const auto begin = Clock::now();

@@ -1,13 +1,13 @@
 #include <fmt/format.h>
 
 #include "study/cli/input.h"
+#include "study/cli/run_points.h"
 #include "study/cli/verb_table.h"
 #include "study/report/console.h"
 #include "study/report/summary_table.h"
 #include "study/report/write_table.h"
 #include "study/session/end.h"
 #include "study/session/exit_code.h"
-#include "study/session/launch.h"
 #include "study/session/study_points.h"
 
 namespace linkstudy {
@@ -37,13 +37,15 @@ int finish(bool json, StudySession& session, StudyEnd end) {
 
 }  // namespace
 
+int run_points(const CommandLine& line, const ReadInput& read) {
+  return run_session(line, read, [&](StudySession& session) {
+    const std::vector<Point> points = points_of(session.evaluator().input());
+    return finish(line.json, session, end_study(session, [&] { session.evaluate(points); }));
+  });
+}
+
 int run_study(const CommandLine& line) {
-  return run_session(
-      line, [&] { return read_study_input(line, FileKind::study); },
-      [&](StudySession& session) {
-        const std::vector<Point> points = points_of(session.evaluator().input());
-        return finish(line.json, session, end_study(session, [&] { session.evaluate(points); }));
-      });
+  return run_points(line, [&] { return read_study_input(line, FileKind::study); });
 }
 
 }  // namespace linkstudy

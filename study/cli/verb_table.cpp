@@ -54,7 +54,7 @@ std::vector<VerbRow> model_verbs() {
        1,
        1,
        "runs a model once: statics if asked, then time histories",
-       {"set,s", "timeout", "csv", "signals", "progress", "json"},
+       {"output,o", "fresh", "set,s", "timeout", "csv", "signals", "progress", "json"},
        run_simulate},
       {"statics",
        "MODEL",

@@ -183,7 +183,8 @@ void add_values(Fields<Record>& vary) {
 void add_vary(Fields<Study>& study) {
   Fields<Study> vary;
   add_values(vary);
-  study.tables("vary", {.meaning = "varied model values", .required = true}, std::move(vary));
+  study.tables("vary", {.meaning = "varied model values; without any the model runs once"},
+               std::move(vary));
   Fields<Study> design;
   design.add("type", &Study::design,
              {.planned = {"centered", "vector", "latin_hypercube", "sobol"}});

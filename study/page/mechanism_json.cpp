@@ -26,6 +26,10 @@ Json vector_of(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};
 }
 
+bool is_loose(const Closure& closure) {
+  return closure.model == ClosureModel::clearance;
+}
+
 class Scene {
  public:
   explicit Scene(const MovingRun& run) : run_(run) {}
@@ -33,10 +37,15 @@ class Scene {
   Json make() const {
     std::vector<double> poses;
     for (const ShortenedDualQuaternion& pose : run_.poses) append_pose(poses, pose);
-    return {{"title", run_.title},          {"load_case", run_.load_case},
-            {"ended", run_.ended},          {"links", links()},
-            {"joints", joints()},           {"closures", closures()},
-            {"points", points()},           {"times", base64_floats(run_.times)},
+    return {{"title", run_.title},
+            {"load_case", run_.load_case},
+            {"history", run_.histories.name},
+            {"ended", run_.ended},
+            {"links", links()},
+            {"joints", joints()},
+            {"closures", closures()},
+            {"points", points()},
+            {"times", base64_floats(run_.times)},
             {"poses", base64_floats(poses)}};
   }
 
@@ -76,6 +85,7 @@ class Scene {
       all.push_back({{"name", closure.name},
                      {"type", name_of(closure.type)},
                      {"model", name_of(closure.model)},
+                     {"radial", is_loose(closure) ? Json(closure.clearance.radial) : Json(nullptr)},
                      {"first", number_of(closure.first.link)},
                      {"second", number_of(closure.second.link)},
                      {"first_frame", frame_of(closure.first.frame)},

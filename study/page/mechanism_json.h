@@ -9,9 +9,10 @@
 namespace linkstudy {
 
 // {"title", "load_case", "history": name of its histories, "ended",
-//   "links": [{"name", "mass", "center"}],
+//  "links": [{"name", "mass", "center"}],
 //  "joints": [{"name", "type", "parent", "child", "parent_frame", "child_frame"}],
-//  "closures": [{"name", "type", "model", "first", "second", "first_frame", "second_frame"}],
+//  "closures": [{"name", "type", "model", "radial": clearance in m or null, "first", "second",
+//                "first_frame", "second_frame"}],
 //  "points": [{"name", "link", "position"}], "times", "poses"}
 // Links are numbers in "links". A frame is [x, y, z, qw, qx, qy, qz]. Poses: 32-bit numbers in
 // base64, seven a link as in a frame, link by link, instant by instant; m.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "study/config/file_kind.h"
 #include "study/metrics/response_list.h"
 #include "study/page/mechanism_json.h"
 #include "study/page/stored_answer.h"
@@ -89,6 +90,15 @@ Json counts_of(const std::vector<Evaluation>& evaluations) {
     }
   }
   return {{"evaluations", evaluations.size()}, {"ok", ok}, {"failed", failed}};
+}
+
+// Of what has no answer: the journal does not say whether anything runs.
+std::string status_of(const StudyResults& results, std::size_t evaluations) {
+  const std::uint64_t total = results.provenance.empty() ? 0 : results.provenance.back().total;
+  const std::optional<FileKind> kind = find_word<FileKind>(results.description.kind);
+  if (!kind || !has_design(*kind)) return "no answer yet";
+  if (evaluations >= total) return std::string(name_of(RunStatus::complete));
+  return fmt::format("{} of {} evaluations", evaluations, total);
 }
 
 bool is_coordinate(const std::string& channel) {
@@ -180,7 +190,7 @@ std::string page_json(const StudyResults& results, const MovingRuns& again) {
   Json page = {{"format", 1},
                {"name", results.description.name},
                {"kind", results.description.kind},
-               {"status", name_of(results.status)},
+               {"status", status_of(results, evaluations.size())},
                {"digest", results_digest(results.description.parameters,
                                          results.description.responses, evaluations)},
                {"program", results.program_version},

@@ -117,7 +117,9 @@ class Configs(unittest.TestCase):
                 data = json.loads(re.search(r'id="data">(.*?)</script>', page, re.S)[1])
                 self.assertGreater(data["counts"]["ok"], 0)
                 self.assertTrue(all(one["poses"] for one in data["mechanisms"]))
-                self.assertTrue(data["mechanisms"] and data["histories"])
+                histories = [one["name"] for one in data["histories"]]
+                self.assertTrue(data["mechanisms"])
+                self.assertTrue(all(one["history"] in histories for one in data["mechanisms"]))
 
     def test_the_readme_is_the_key_reference(self):
         done = run("describe", "--markdown")

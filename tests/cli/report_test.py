@@ -249,6 +249,30 @@ class Report(unittest.TestCase):
         for part in ("digest", "counts", "histories", "mechanisms", "matches"):
             self.assertEqual(again[part], first[part], part)
 
+    def test_one_run_of_a_model_is_results_like_any_other(self):
+        model = TREE / "configs" / "mechanisms" / "rsup_clearance_planar.toml"
+        options = ["-s", "simulation.end_time=0.2"]
+        ran = run("simulate", model, "-o", self.results, *options)
+        self.assertEqual(ran.returncode, 0, ran.stderr)
+        self.assertIn("results digest", ran.stdout)
+        self.assertNotIn("no effect", ran.stderr)
+        lone = run("simulate", model, "--csv", "-", *options)
+        names, *rows = [line.split(",") for line in lone.stdout.splitlines()[1:]]
+        stored = json.loads(run("export", self.results, "--traces", "--format", "json").stdout)
+        self.assertEqual(len(stored["rows"]), len(rows))
+        for row, one in zip(stored["rows"], rows, strict=True):
+            for name, value in zip(names, one, strict=True):
+                self.assertEqual(row[name], float(value), name)
+        self.assertEqual(run("verify", self.results).returncode, 0)
+        page = self.report()
+        data = self.check_tables(page)
+        self.assertEqual(data["status"], "complete")
+        seen = self.check_shown(page, charts=3)
+        self.assertIn("Journal of R, evaluation 0", seen["text"])
+        refused = run("simulate", model, "-o", self.results, "--csv", "x.csv")
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("--csv with -o", refused.stderr)
+
     def test_an_evaluation_of_choice_moves(self):
         self.make("study", "rsrrp_stiffness", "-s", "simulation.end_time=1", "-s",
                   "match.0.window=[0.2, 1]", "-s", "vary.0.values=[1e5, 1e6]")

@@ -19,6 +19,7 @@ function axisOf(axis, positions) {
     ticks: {callback: (value) => axis.words ? axis.words[value] ?? "" : shown(value),
             maxRotation: 30},
   };
+  if (axis.max !== undefined) Object.assign(scale, {min: axis.min, max: axis.max});
   if (axis.words) {
     Object.assign(scale, {min: -0.5, max: axis.words.length - 0.5, afterBuildTicks: (built) => {
       built.ticks = axis.words.map((_, value) => ({value}));
@@ -184,7 +185,8 @@ function addFigure(parent, wanted, controls = null) {
     if (fold.open) fold.append(tableElement(numbersOf(figure), figure.wanted.title));
   });
   parent.append(make("figure", {}, figure.heading, ...(controls ? [controls] : []),
-                     make("div", {class: "plot"}, figure.canvas), figure.spoken, figure.caption,
+                     make("div",
+                          {class: wanted.isSquare ? "plot square" : "plot"}, figure.canvas), figure.spoken, figure.caption,
                      buttons, fold));
   draw(figure, wanted);
   figures.push(figure);

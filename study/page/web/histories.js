@@ -134,3 +134,34 @@ function historyPanel(grid, groups, overs, group, over) {
     make("div", {class: "controls"}, what.element, across.element, ...boxes));
   return figure;
 }
+
+// Where the centre of a journal goes within its clearance; true to scale.
+function addJournals(main) {
+  const loose = data.mechanisms.flatMap((mechanism) => mechanism.closures
+    .filter((closure) => closure.radial !== null).map((closure) => ({mechanism, closure})));
+  if (!loose.length) return;
+  const section = addSection(main, "Journals in their clearances");
+  const grid = addFigures(section);
+  for (const {mechanism, closure} of loose) {
+    const history = histories.find((one) => one.isAgain && one.name === mechanism.history);
+    const [x, y] = ["x", "y"].map((axis) => `closure.${closure.name}.eccentricity.${axis}`);
+    if (!history?.channels.has(x) || !history.channels.has(y)) continue;
+    const rows = history.samples(x).rows ?? history.time.keys();
+    const places = Array.from(rows, (row) => [history.at(x, row), history.at(y, row)]);
+    const turn = Array.from({length: 121}, (_, i) => i * Math.PI / 60);
+    const far = Math.max(closure.radial, ...places.map(([a, b]) => Math.hypot(a, b)));
+    const bounds = {min: -1.1 * far, max: 1.1 * far};
+    addFigure(grid, {
+      title: `Journal of ${closure.name}, ${mechanism.title}`,
+      summary: `Radial clearance ${shown(closure.radial)} m, the circle; the journal goes as far ` +
+               `as ${shown(far)} m from the middle, ${shown(Math.max(far - closure.radial, 0))} m ` +
+               "into the bearing.",
+      x: {label: "eccentricity.x [m]", ...bounds}, y: {label: "eccentricity.y [m]", ...bounds},
+      isSquare: true,
+      series: [{name: "journal", x: places.map((p) => p[0]), y: places.map((p) => p[1]),
+                line: true, plain: true, thin: true},
+               {name: "clearance", x: turn.map((a) => closure.radial * Math.cos(a)),
+                y: turn.map((a) => closure.radial * Math.sin(a)), line: true, plain: true,
+                isGuide: true, dash: [6, 4]}]});
+  }
+}
