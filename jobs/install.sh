@@ -13,7 +13,7 @@ packages=(
   libeigen3-dev libboost-dev libboost-program-options-dev
   libtomlplusplus-dev libfmt-dev libspdlog-dev nlohmann-json3-dev
   libgtest-dev libgmock-dev libbenchmark-dev clang-format
-  libjs-chart.js libjs-three
+  libjs-chart.js libjs-three gnuplot-nox
   python3 python3-h5py python3-xarray python3-h5netcdf python3-netcdf4
 )
 if [ "${1:-}" = --tests ]; then packages+=(slurm-wlm munge dpkg-dev file chromium); fi

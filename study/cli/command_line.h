@@ -43,6 +43,7 @@ struct CommandLine : SessionOptions, CourseRequest {
   std::optional<int> ranks;
   double probe_s = 2.0;
   std::optional<std::uint64_t> evaluation;
+  std::optional<std::string> figure;
 };
 
 // Throws UsageError. The verb "version" or "help" stands for --version and --help alone.

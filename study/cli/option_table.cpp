@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/topology/nearest_name.h"
+#include "study/page/paper_figure.h"
 #include "study/report/results_tables.h"
 #include "study/report/write_table.h"
 #include "study/schedule/progress.h"
@@ -46,6 +47,12 @@ auto fill(std::vector<std::string> Record::*member) {
 
 using Rows = std::vector<OptionRow>;
 
+std::vector<std::string> figure_names() {
+  std::vector<std::string> names;
+  for (const PaperKind& kind : paper_kinds()) names.emplace_back(kind.name);
+  return names;
+}
+
 std::vector<std::string> table_names() {
   std::vector<std::string> names;
   for (const ResultsTable& table : results_tables()) names.emplace_back(table.name);
@@ -55,6 +62,7 @@ std::vector<std::string> table_names() {
 std::vector<std::string> format_names() {
   std::vector<std::string> names;
   for (const TableFormat& format : table_formats()) names.emplace_back(format.name);
+  for (const auto& word : kWords<PaperFormat>) names.emplace_back(word.text);
   return names;
 }
 
@@ -104,6 +112,13 @@ Rows file_options() {
       {"all", "", "every evaluation", fill_switch(&Line::all)},
       {"count", "N", "evaluations to run again, beside those that a certificate rests on (8)",
        fill(&Line::count)},
+  };
+}
+
+// Of results as they are shown.
+Rows results_options() {
+  using Line = CommandLine;
+  return {
       {"list", "", "the tables there are, with their rows and what they hold",
        fill_switch(&Line::list)},
       {"table", "NAME", "which of them; default: summary", fill(&Line::table), {}, table_names()},
@@ -114,11 +129,18 @@ Rows file_options() {
        "< "
        "<= > >=)",
        fill(&Line::rows)},
+      {"figure",
+       "NAME",
+       "draw a figure for a paper with gnuplot; with --format svg, pdf or png, and -o FILE",
+       fill(&Line::figure),
+       {},
+       figure_names()},
       {"traces", "", "the table traces: time histories, and their differences from the reference",
        fill_switch(&Line::traces)},
       {"format",
        "FORM",
-       "text, csv, md, latex or json; default: text on a terminal, csv in files and pipes",
+       "text, csv, md, latex or json; default: text on a terminal, csv in files and pipes; of a "
+       "figure svg, pdf or png",
        fill(&Line::format),
        {},
        format_names()},
@@ -190,7 +212,7 @@ Rows course_options() {
 const Rows& option_rows() {
   static const Rows rows = [] {
     Rows all = file_options();
-    for (const Rows& more : {run_rows(), plan_options(), course_options()}) {
+    for (const Rows& more : {results_options(), run_rows(), plan_options(), course_options()}) {
       all.insert(all.end(), more.begin(), more.end());
     }
     return all;

@@ -104,7 +104,7 @@ std::vector<VerbRow> study_verbs() {
        1,
        1,
        "prints tables of the results of a directory, or of its results.h5",
-       {"list", "table", "columns", "rows", "traces", "format", "output,o"},
+       {"list", "table", "columns", "rows", "traces", "figure", "format", "output,o"},
        run_export},
       {"report",
        "DIR|FILE.h5",

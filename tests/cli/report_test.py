@@ -15,6 +15,7 @@ import sys
 import tempfile
 import unittest
 from pathlib import Path
+from xml.etree import ElementTree
 
 LINKSTUDY = ""
 TREE = Path()
@@ -308,6 +309,31 @@ class Report(unittest.TestCase):
         self.assertEqual(island_of(page)["name"], json.loads(json.dumps(name)))
         seen = self.check_shown(page, charts=2)
         self.assertIn("<img src=x", seen["text"])
+
+    def test_figures_for_papers_are_drawn_from_the_same_numbers(self):
+        self.make("study", "rsrrp_stiffness", "-s", "simulation.end_time=1", "-s",
+                  "match.0.window=[0.2, 1]", "-s", "vary.0.values=[1e5, 3e5, 1e6, 1e13]")
+        for form, begin in (("svg", b"<?xml"), ("pdf", b"%PDF"), ("png", b"\x89PNG")):
+            path = Path(self.folder.name) / f"errors.{form}"
+            drawn = run("export", self.results, "--figure", "errors", "--format", form, "-o", path)
+            self.assertEqual((drawn.returncode, drawn.stdout), (0, f"{path}\n"), drawn.stderr)
+            self.assertTrue(path.read_bytes().startswith(begin))
+        texts = [text for element in ElementTree.parse(Path(self.folder.name) / "errors.svg").iter()
+                 for text in [element.text or ""] if text.strip()]
+        for name in ("closure.S.force.x", "closure.S.sde.stiffness [N/m]"):
+            self.assertTrue(any(name in text for text in texts), name)
+        drawn = run("export", self.results, "--figure", "histories", "-o",
+                    Path(self.folder.name) / "histories.svg")
+        self.assertEqual(drawn.returncode, 0, drawn.stderr)
+        for options, message in ((["--figure", "residuals"], "have nothing of it"),
+                                 (["--figure", "forces"], "there is no figure 'forces'"),
+                                 (["--figure", "errors", "--format", "csv"], "svg, pdf or png"),
+                                 (["--figure", "errors", "--table", "summary"], "goes with"),
+                                 (["--format", "svg"], "name one with --figure")):
+            refused = run("export", self.results, *options, cwd=self.folder.name)
+            self.assertEqual(refused.returncode, 2, options)
+            self.assertIn(message, refused.stderr)
+        self.assertEqual(list(Path(self.folder.name).glob("*.tmp")), [])
 
     def test_what_is_no_results_is_refused(self):
         for path in (self.folder.name, Path(self.folder.name) / "nothing"):
