@@ -30,6 +30,7 @@ struct CommandLine : SessionOptions, CourseRequest {
   std::optional<std::string> man;
   bool traces = false;
   bool list = false;
+  bool watch = false;
   bool all = false;
   std::optional<int> count;
   std::optional<std::string> table;

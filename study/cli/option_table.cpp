@@ -119,6 +119,8 @@ Rows file_options() {
 Rows results_options() {
   using Line = CommandLine;
   return {
+      {"watch", "", "again every two seconds, with the best so far, until nothing runs",
+       fill_switch(&Line::watch)},
       {"list", "", "the tables there are, with their rows and what they hold",
        fill_switch(&Line::list)},
       {"table", "NAME", "which of them; default: summary", fill(&Line::table), {}, table_names()},

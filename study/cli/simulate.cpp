@@ -36,6 +36,7 @@ int run_into_directory(const CommandLine& line) {
 int run_simulate(const CommandLine& line) {
   simd_level();  // a wrong LINKSTUDY_SIMD or LINKSTUDY_LANES ends the program here
   if (line.output) return run_into_directory(line);
+  require(!line.fresh, "--fresh goes with -o DIR");
   require_writable("--csv", line.csv);
   const ModelInput input = read_model_input(line);
   const auto begin = Clock::now();

@@ -1,15 +1,48 @@
 #include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <thread>
 
 #include "study/cli/verb_table.h"
+#include "study/page/moving_run.h"
 #include "study/report/console.h"
 #include "study/report/status_report.h"
 #include "study/session/exit_code.h"
+#include "study/store/results_file.h"
 
 namespace linkstudy {
+namespace {
 
-int run_status(const CommandLine& line) {
+constexpr auto kPause = std::chrono::seconds(2);
+
+StudyStatus read_and_warn(const CommandLine& line) {
   const StudyStatus status = read_status(line.inputs.front());
   if (!status.dropped.empty()) print_err(fmt::format("linkstudy: warning: {}\n", status.dropped));
+  return status;
+}
+
+// On a terminal the text stays in its place, elsewhere each follows the last.
+int watch(const CommandLine& line) {
+  const bool is_terminal = isatty(STDOUT_FILENO) != 0;
+  const char* begin = is_terminal ? "\x1b[H\x1b[J" : "";
+  while (true) {
+    const StudyStatus status = read_and_warn(line);
+    const std::string best = best_text(read_stored(line.inputs.front()));
+    print_out(fmt::format("{}{}{}{}", begin, status_text(status),
+                          best.empty() ? "" : summary_line("best so far", best),
+                          is_terminal ? "" : "\n"));
+    if (!status.running) return kDone;
+    std::this_thread::sleep_for(kPause);
+  }
+}
+
+}  // namespace
+
+int run_status(const CommandLine& line) {
+  require(!line.watch || !line.json, "--watch is for people: --json tells the state once");
+  if (line.watch) return watch(line);
+  const StudyStatus status = read_and_warn(line);
   print_out(line.json ? status_json(status) : status_text(status));
   return kDone;
 }

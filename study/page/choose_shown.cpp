@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -40,6 +42,21 @@ std::vector<std::size_t> error_columns(const StudyDescription& description) {
   return columns;
 }
 
+std::string shown(const Value& value) {
+  const double* number = std::get_if<double>(&value);
+  return number != nullptr ? fmt::format("{:.6g}", *number) : std::get<std::string>(value);
+}
+
+double largest_error(const Evaluation& evaluation, const std::vector<std::size_t>& columns) {
+  double worst = 0.0;
+  for (const std::size_t c : columns) {
+    if (c < evaluation.responses.size()) {
+      worst = std::fmax(worst, std::abs(evaluation.responses[c]));
+    }
+  }
+  return worst;
+}
+
 }  // namespace
 
 nlohmann::json stored_answer(const StudyResults& results) {
@@ -56,10 +73,7 @@ std::optional<std::uint64_t> choose_shown(const StudyResults& results) {
   double least = std::numeric_limits<double>::infinity();
   for (const Evaluation& one : latest_by_id(results.evaluations)) {
     if (one.status != Cause::ok) continue;
-    double worst = 0.0;
-    for (const std::size_t c : columns) {
-      if (c < one.responses.size()) worst = std::fmax(worst, std::abs(one.responses[c]));
-    }
+    const double worst = largest_error(one, columns);
     // Without errors the last: of a refinement the finest.
     if (!best || worst < least || columns.empty()) {
       best = one.point.id;
@@ -67,6 +81,23 @@ std::optional<std::uint64_t> choose_shown(const StudyResults& results) {
     }
   }
   return best;
+}
+
+std::string best_text(const StudyResults& results) {
+  const Id best = choose_shown(results);
+  const std::vector<Evaluation> evaluations = latest_by_id(results.evaluations);
+  const auto found = std::ranges::find_if(
+      evaluations, [&](const Evaluation& one) { return best && one.point.id == *best; });
+  if (found == evaluations.end()) return "";
+  std::string text = fmt::format("evaluation {}", *best);
+  for (std::size_t i = 0; i < found->point.values.size(); ++i) {
+    const Parameter& parameter = results.description.parameters.at(i);
+    text += fmt::format(", {} = {}{}{}", parameter.path, shown(found->point.values[i]),
+                        parameter.unit.empty() ? "" : " ", parameter.unit);
+  }
+  const std::vector<std::size_t> columns = error_columns(results.description);
+  if (columns.empty()) return text;
+  return text + fmt::format(", largest error {:.4g} %", 100.0 * largest_error(*found, columns));
 }
 
 }  // namespace linkstudy

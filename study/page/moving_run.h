@@ -33,6 +33,10 @@ struct MovingRuns {
 // least of its largest errors, or the last that ended well. Nothing where none did.
 std::optional<std::uint64_t> choose_shown(const StudyResults& results);
 
+// That one in a line: "evaluation 12, closure.S.sde.stiffness = 812945 N/m, largest error 2 %";
+// empty where there is none.
+std::string best_text(const StudyResults& results);
+
 // Runs one evaluation and its reference, in the load case that binds or the first; each ends after
 // `timeout_s`. What cannot be run is a note. Throws UsageError where there is no such evaluation.
 MovingRuns run_again(const StudyResults& results, std::optional<std::uint64_t> evaluation,

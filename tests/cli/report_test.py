@@ -310,6 +310,16 @@ class Report(unittest.TestCase):
         seen = self.check_shown(page, charts=2)
         self.assertIn("<img src=x", seen["text"])
 
+    def test_a_watched_study_tells_the_best_so_far(self):
+        self.make("study", "rsrrp_stiffness", "-s", "simulation.end_time=1", "-s",
+                  "match.0.window=[0.2, 1]", "-s", "vary.0.values=[1e5, 1e6, 1e13]")
+        watched = run("status", self.results, "--watch")
+        self.assertEqual(watched.returncode, 0, watched.stderr)
+        self.assertIn("complete", watched.stdout)
+        self.assertRegex(watched.stdout, r"failed +1 ")
+        self.assertRegex(watched.stdout, r"best so far +evaluation 1, closure.S.sde.stiffness = "
+                                         r"1e\+06 N/m, largest error [\d.]+ %")
+
     def test_figures_for_papers_are_drawn_from_the_same_numbers(self):
         self.make("study", "rsrrp_stiffness", "-s", "simulation.end_time=1", "-s",
                   "match.0.window=[0.2, 1]", "-s", "vary.0.values=[1e5, 3e5, 1e6, 1e13]")
