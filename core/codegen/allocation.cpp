@@ -273,8 +273,8 @@ class Allocator {
     const std::array<Value, 3> x = {n.a, n.b, n.c};
     int lost = -1;
     for (int k = 0; k < 3; ++k) {
-      if (is_here(x[static_cast<std::size_t>(k)]) && ends_here(x[static_cast<std::size_t>(k)]))
-        lost = k;
+      const Value v = x[static_cast<std::size_t>(k)];
+      if (is_here(v) && ends_here(v)) lost = k;
     }
     for (int k = 0; k < 3 && lost < 0; ++k) {
       if (!is_here(x[static_cast<std::size_t>(k)])) lost = k;

@@ -1,6 +1,7 @@
 #include "core/simulation/simulate.h"
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -9,6 +10,7 @@
 #include "core/simulation/kernels.h"
 #include "core/simulation/located_run.h"
 #include "core/simulation/looks.h"
+#include "core/simulation/written_steps.h"
 
 namespace linkstudy {
 namespace {
@@ -84,8 +86,12 @@ class Packed {
     for (std::size_t i = 0; i < cases.size(); ++i) add(i);
   }
 
-  void run(const SimulationOptions& options, Watch& watch, const Kernel& kernel) {
-    const KernelRun setting = setting_of(options, watch);
+  std::span<const LaneCase> lanes() const { return lanes_; }
+
+  void run(const SimulationOptions& options, Watch& watch, const Kernel& kernel,
+           const StepCode* code = nullptr) {
+    KernelRun setting = setting_of(options, watch);
+    setting.code = code;
     kernel.run(m_, setting, lanes_.data(), static_cast<int>(lanes_.size()));
     for (std::size_t i = 0; i < cases_.size(); ++i) {
       const long steps = ends_[i].steps;
@@ -200,6 +206,71 @@ class Packed {
   std::vector<LaneCase> lanes_;
 };
 
+// Code for the steps of a pack, if there is any, with frames of its own.
+class CodeForPack {
+ public:
+  CodeForPack(const Mechanism& m, std::span<const LaneCase> cases, const SimulationOptions& options,
+              const StepLoopChoice& choice, int lanes) {
+    if (choice.general) return;
+    const Observers& form = *cases[0].observers;
+    const Kept kept = kept_often(m, form);
+    written_ = written_step(m, cases, kept, make_step_grid(options).count, choice.level);
+    if (!written_) return;
+    for_observers(m, form, [&](const Sampling& sampling, Kept needs) {
+      if (needs > kept) beyond_.push_back(sampling);
+    });
+    const int frames = (lanes + kFrameLanes - 1) / kFrameLanes;
+    frames_.resize(static_cast<std::size_t>(frames * written_->frame_slots));
+    for (int i = 0; i < frames; ++i) {
+      for (const auto& [slot, bits] : written_->constants) {
+        Slot& place = frames_[static_cast<std::size_t>(i * written_->frame_slots + slot)];
+        for (double& number : place.numbers) number = std::bit_cast<double>(bits);
+      }
+    }
+    code_ = {written_->code->function(),
+             kept,
+             written_->slots,
+             frames_.front().numbers,
+             written_->frame_slots * kFrameLanes,
+             beyond_.data(),
+             static_cast<int>(beyond_.size())};
+  }
+
+  const StepCode* get() const { return written_ ? &code_ : nullptr; }
+
+ private:
+  struct alignas(kFrameLanes * sizeof(double)) Slot {
+    double numbers[kFrameLanes] = {};
+  };
+  static constexpr long kOften = 8;  // steps: what is looked at more rarely is worth a general step
+
+  // f(sampling, what it takes) of all observers.
+  template <class F>
+  static void for_observers(const Mechanism& m, const Observers& form, F&& f) {
+    const auto needs = [&m](const std::vector<Channel>& channels) {
+      Kept most = Kept::motion;
+      for (const Channel& c : channels) most = std::max(most, kept_for(m, c));
+      return most;
+    };
+    for (const auto& s : form.series) f(s.sampling, needs(s.channels));
+    for (const auto& s : form.comparisons) f(s.sampling, needs(s.channels));
+    for (const auto& s : form.reductions) f(s.sampling, kept_for(m, s.channel));
+  }
+
+  static Kept kept_often(const Mechanism& m, const Observers& form) {
+    Kept most = Kept::motion;
+    for_observers(m, form, [&](const Sampling& sampling, Kept needs) {
+      if (sampling.stride < kOften) most = std::max(most, needs);
+    });
+    return most;
+  }
+
+  std::shared_ptr<const WrittenStep> written_;
+  std::vector<Sampling> beyond_;
+  std::vector<Slot> frames_;
+  StepCode code_;
+};
+
 // A lone case takes one lane: the same bits, and faster than a pack of copies.
 void run_pack(const Mechanism& m, const SimulationOptions& options, std::span<BatchCase> cases,
               const RunLimits& limits, const StepLoopChoice& choice) {
@@ -207,7 +278,8 @@ void run_pack(const Mechanism& m, const SimulationOptions& options, std::span<Ba
   const int lanes = cases.size() == 1 ? 1 : choice.level.lanes;
   Watch watch{limits};
   Packed packed(m, cases);
-  packed.run(options, watch, find_kernel(m, isa, lanes, choice.general));
+  const CodeForPack code(m, packed.lanes(), options, choice, lanes);
+  packed.run(options, watch, find_kernel(m, isa, lanes, choice.general || code.get()), code.get());
   std::vector<BatchCase> abandoned;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     if (packed.abandoned(i)) abandoned.push_back(cases[i]);

@@ -1,0 +1,179 @@
+#include "core/simulation/written_steps.h"
+
+#include <algorithm>
+#include <chrono>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+#include "core/codegen/traced.h"
+
+namespace linkstudy {
+namespace {
+
+// Writing takes as long as some hundred steps a freedom take in the general loop.
+constexpr long kStepsPerFreedom = 500;
+constexpr std::size_t kMostStructures = 64;
+
+Known known_of(double x) {
+  return x == 0.0    ? Known::zero
+         : x == 1.0  ? Known::one
+         : x == -1.0 ? Known::minus_one
+                     : Known::varies;
+}
+
+std::vector<Known> known_in_all(std::span<const LaneCase> cases) {
+  std::vector<Known> known;
+  for (const LaneCase& c : cases) {
+    std::size_t i = 0;
+    for_parameter_numbers<double>(*c.parameters, [&](const double* x, std::size_t n) {
+      for (std::size_t k = 0; k < n; ++k, ++i) {
+        const Known here = known_of(x[k]);
+        if (&c == &cases.front()) known.push_back(here);
+        if (known[i] != here) known[i] = Known::varies;
+      }
+    });
+  }
+  return known;
+}
+
+// Code made for `code` is right for numbers of which `pack` is known.
+bool serves(const std::vector<Known>& code, const std::vector<Known>& pack) {
+  return std::equal(code.begin(), code.end(), pack.begin(), pack.end(),
+                    [](Known a, Known b) { return a == Known::varies || a == b; });
+}
+
+std::vector<Known> known_in_both(std::vector<Known> a, const std::vector<Known>& b) {
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (a[i] != b[i]) a[i] = Known::varies;
+  return a;
+}
+
+struct Structure {
+  MechanismStructure structure;
+  long steps = 0;  // asked for so far
+  bool traceable = true;
+  std::vector<std::shared_ptr<const WrittenStep>> written;
+};
+
+class Library {
+ public:
+  std::shared_ptr<const WrittenStep> find(const Mechanism& m, std::span<const LaneCase> cases,
+                                          Kept kept, long steps, Kernels choice) {
+    const std::lock_guard lock(mutex_);
+    if (!refused_.empty()) return nullptr;
+    Structure& s = structure_of(m);
+    s.steps += steps;
+    if (!s.traceable) return nullptr;
+    std::vector<Known> known = known_in_all(cases);
+    const WrittenStep* near = nullptr;
+    for (const auto& w : s.written) {
+      if (w->kept != kept || w->known.size() != known.size()) continue;
+      if (serves(w->known, known)) return w;
+      near = w.get();
+    }
+    if (choice != Kernels::written && s.steps < kStepsPerFreedom * (m.nv + 1)) return nullptr;
+    if (near) known = known_in_both(std::move(known), near->known);
+    return write(m, *cases[0].parameters, std::move(known), kept, s);
+  }
+
+  WrittenReport report() {
+    const std::lock_guard lock(mutex_);
+    return {kernels_, seconds_, refused_};
+  }
+
+ private:
+  // The one asked for last comes first.
+  Structure& structure_of(const Mechanism& m) {
+    const auto found =
+        std::find_if(structures_.begin(), structures_.end(),
+                     [&](const Structure& s) { return same_structure(s.structure, m); });
+    if (found != structures_.end()) {
+      std::rotate(structures_.begin(), found, found + 1);
+    } else {
+      if (structures_.size() == kMostStructures) structures_.pop_back();
+      structures_.insert(structures_.begin(), {m, 0, true, {}});
+    }
+    return structures_.front();
+  }
+
+  std::shared_ptr<const WrittenStep> write(const Mechanism& m, const Parameters<double>& sizes,
+                                           std::vector<Known> known, Kept kept, Structure& s) {
+    const auto begin = std::chrono::steady_clock::now();
+    std::optional<StepTrace> trace;
+    try {
+      trace.emplace(trace_step(m, sizes, known, kept));
+    } catch (const Untraceable&) {
+      s.traceable = false;
+      return nullptr;
+    }
+    const codegen::Program program = codegen::allocate(trace->graph, trace->slots.end);
+    auto code = codegen::WrittenCode::place(codegen::assemble_avx2(program));
+    if (!code) {
+      refused_ = "this machine refuses executable memory";
+      return nullptr;
+    }
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
+    ++kernels_;
+    seconds_ += spent.count();
+    s.written.push_back(std::make_shared<const WrittenStep>(
+        WrittenStep{trace->slots, kept, std::move(known), program.constants, program.slots,
+                    program.operations, spent.count(), std::move(code)}));
+    return s.written.back();
+  }
+
+  std::mutex mutex_;
+  std::vector<Structure> structures_;
+  int kernels_ = 0;
+  double seconds_ = 0.0;
+  std::string refused_;
+};
+
+Library& library() {
+  static Library all;
+  return all;
+}
+
+}  // namespace
+
+WrittenReport written_report() {
+  return library().report();
+}
+
+std::shared_ptr<const WrittenStep> written_step(const Mechanism& m, std::span<const LaneCase> cases,
+                                                Kept kept, long steps, const SimdLevel& level) {
+  if (level.kernels == Kernels::general || level.isa == InstructionSet::baseline ||
+      !machine_has(InstructionSet::avx2)) {
+    return nullptr;
+  }
+  return library().find(m, cases, kept, steps, level.kernels);
+}
+
+Kept kept_for(const Mechanism& m, const Channel& channel) {
+  switch (channel.quantity) {
+    case Quantity::time:
+    case Quantity::q:
+    case Quantity::v:
+    case Quantity::a:
+    case Quantity::penetration:
+    case Quantity::normal_force:
+    case Quantity::friction_force:
+    case Quantity::bristle:
+    case Quantity::contact_state:
+    case Quantity::friction_load:
+    case Quantity::joint_friction:
+    case Quantity::supplied:
+    case Quantity::dissipated:
+      return Kept::motion;
+    case Quantity::closure_force:
+    case Quantity::closure_torque:
+      return m.loop_joints.empty() ? Kept::closures : Kept::everything;
+    case Quantity::closure_gap:
+    case Quantity::eccentricity:
+      return Kept::closures;
+    default:
+      return Kept::everything;
+  }
+}
+
+}  // namespace linkstudy
