@@ -276,9 +276,8 @@ class Allocator {
       const Value v = x[static_cast<std::size_t>(k)];
       if (is_here(v) && ends_here(v)) lost = k;
     }
-    for (int k = 0; k < 3 && lost < 0; ++k) {
+    for (int k = 0; k < 3 && lost < 0; ++k)
       if (!is_here(x[static_cast<std::size_t>(k)])) lost = k;
-    }
     if (lost < 0) lost = 2;
     Value y = lost == 0 ? n.b : n.a, z = lost == 2 ? n.b : n.c;
     const Value taken = x[static_cast<std::size_t>(lost)];

@@ -111,9 +111,9 @@ class Run {
 
   // Nothing happens in a step but the step itself, as far as can be said beforehand.
   bool is_quiet() const {
-    return written_.is_there() && step_ > 0 && step_ < setting_.count &&
-           step_ % setting_.energy_stride != 0 && step_ % kStepsBetweenPolls != 0 &&
-           !watch_.looks_at(step_) && !written_.leaves_out(step_);
+    return written_.is_there() && active_ != 0 && step_ > 0 && step_ < setting_.count &&
+           step_ % setting_.energy_stride != 0 && !watch_.looks_at(step_) &&
+           !written_.leaves_out(step_);
   }
 
   // False, and nothing has changed, where some lane needs the general step.
@@ -129,6 +129,7 @@ class Run {
     checks_.see_rank(Real(1.0) > Real(0.0), w_.kept_rows);
     watch_.see(step_, t, y_.data(), w_, active_);
     observers_.observe(step_, now_);
+    if (step_ % kStepsBetweenPolls == 0 && interrupted(t)) return true;
     written_.write_next([this](auto&& f) { for_state(f); });
     if (active_ != kAllLanes<Real>) reset_idle_lanes();
     return true;

@@ -61,7 +61,6 @@ class Library {
   std::shared_ptr<const WrittenStep> find(const Mechanism& m, std::span<const LaneCase> cases,
                                           Kept kept, long steps, Kernels choice) {
     const std::lock_guard lock(mutex_);
-    if (!refused_.empty()) return nullptr;
     Structure& s = structure_of(m);
     s.steps += steps;
     if (!s.traceable) return nullptr;
@@ -79,7 +78,7 @@ class Library {
 
   WrittenReport report() {
     const std::lock_guard lock(mutex_);
-    return {kernels_, seconds_, refused_};
+    return {kernels_, seconds_};
   }
 
  private:
@@ -109,10 +108,7 @@ class Library {
     }
     const codegen::Program program = codegen::allocate(trace->graph, trace->slots.end);
     auto code = codegen::WrittenCode::place(codegen::assemble_avx2(program));
-    if (!code) {
-      refused_ = "this machine refuses executable memory";
-      return nullptr;
-    }
+    if (!code) return nullptr;
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
     ++kernels_;
     seconds_ += spent.count();
@@ -126,7 +122,6 @@ class Library {
   std::vector<Structure> structures_;
   int kernels_ = 0;
   double seconds_ = 0.0;
-  std::string refused_;
 };
 
 Library& library() {
@@ -134,7 +129,18 @@ Library& library() {
   return all;
 }
 
+bool may_execute() {
+  static const bool may = codegen::WrittenCode::place(codegen::assemble_avx2({})) != nullptr;
+  return may;
+}
+
 }  // namespace
+
+std::string why_not_written(const SimdLevel& level) {
+  if (level.kernels == Kernels::general) return "LINKSTUDY_KERNELS=general";
+  if (level.isa == InstructionSet::baseline) return "no fused multiply-add";
+  return may_execute() ? "" : "this machine refuses executable memory";
+}
 
 WrittenReport written_report() {
   return library().report();
@@ -142,10 +148,7 @@ WrittenReport written_report() {
 
 std::shared_ptr<const WrittenStep> written_step(const Mechanism& m, std::span<const LaneCase> cases,
                                                 Kept kept, long steps, const SimdLevel& level) {
-  if (level.kernels == Kernels::general || level.isa == InstructionSet::baseline ||
-      !machine_has(InstructionSet::avx2)) {
-    return nullptr;
-  }
+  if (!why_not_written(level).empty()) return nullptr;
   return library().find(m, cases, kept, steps, level.kernels);
 }
 

@@ -31,9 +31,11 @@ struct WrittenStep {
 struct WrittenReport {
   int kernels = 0;
   double seconds = 0.0;
-  std::string refused;  // why none can be, or empty
 };
 WrittenReport written_report();
+
+// Why this process runs the general step loop alone, or empty. Asks for executable memory once.
+std::string why_not_written(const SimdLevel& level);
 
 // The step for a pack, or null: its structure cannot be traced, this machine has no AVX2 or refuses
 // executable memory, or what is left to run is too little to gain by it. May be called by several
