@@ -165,15 +165,16 @@ bool Graph::strip_sign(Value& v) const {
 Value Graph::add(Value a, Value b) {
   if (strip_sign(b)) return subtract(a, b);
   if (strip_sign(a)) return subtract(b, a);
-  if (is(a, 0.0)) return b;
-  if (is(b, 0.0)) return a;
+  const bool is_folded = is_constant(a) && is_constant(b);
+  if (!is_folded && is(a, 0.0)) return b;
+  if (!is_folded && is(b, 0.0)) return a;
   if (a > b) std::swap(a, b);
   return known(Op::add, a, b, -1);
 }
 
 Value Graph::subtract(Value a, Value b) {
   if (strip_sign(b)) return add(a, b);
-  if (is(b, 0.0)) return a;
+  if (is(b, 0.0) && !is_constant(a)) return a;
   return known(Op::subtract, a, b, -1);
 }
 
@@ -209,7 +210,7 @@ Value Graph::fused(bool minus_product, Value a, Value b, bool minus_term, Value 
   if (is_constant(b)) std::swap(a, b);
   const bool all_known = is_constant(a) && is_constant(b) && is_constant(c);
   if (!all_known) {
-    if (is(a, 0.0)) return negated(minus_term, c);
+    if (is(a, 0.0)) return is(c, 0.0) ? zero_ : negated(minus_term, c);
     if (is(a, 1.0)) return sum(minus_product, b, minus_term, c);
     if (is(a, -1.0)) return sum(!minus_product, b, minus_term, c);
     if (is(c, 0.0)) return negated(minus_product, multiply(a, b));

@@ -42,11 +42,12 @@ struct LaneCase {
 inline constexpr int kFrameLanes = 4;
 struct StepCode {
   void (*step)(double* frame) = nullptr;
-  Kept kept = Kept::motion;
   StepSlots slots;
   double* frames = nullptr;  // as many as the lanes need, one after the other
   int frame_numbers = 0;     // in a frame
-  // When observers look at more than is kept.
+  // First channel of each observer, comparisons, reductions and series in this order, among those
+  // that the code writes; below 0 of one whose channels it does not write, and when those look.
+  const int* first_observed = nullptr;
   const Sampling* beyond = nullptr;
   int beyond_count = 0;
 };

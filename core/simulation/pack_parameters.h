@@ -21,7 +21,6 @@ inline Parameters<Real> pack_parameters(const LaneCase* cases, int count) {
     };
     copy(i, &packed.gravity.x, &p.gravity.x, 3);
     for_parameter_lists(copy_list, packed, p);
-    copy_list(packed.points, p.points);
   }
   return packed;
 }

@@ -1,4 +1,4 @@
-// Parameters as numbers in a row: the one list of what the step loop reads of them.
+// Parameters as numbers in a row: the one list of what a run reads of them.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace linkstudy {
 
-// f(list, ...) of the lists of numbers that the step loop reads, of all the sets of parameters.
+// f(list, ...) of the lists of numbers that a run reads, of all the sets of parameters.
 template <class F, class... P>
 inline void for_parameter_lists(F&& f, P&... p) {
   f(p.bodies...);
@@ -20,6 +20,7 @@ inline void for_parameter_lists(F&& f, P&... p) {
   f(p.clearances...);
   f(p.frictions...);
   f(p.segments...);
+  f(p.points...);
 }
 
 // The numbers of a list of records, which are made of numbers and nothing else.
@@ -35,7 +36,7 @@ inline std::size_t number_count(const List& list) {
   return list.size() * (sizeof(typename List::value_type) / sizeof(Real));
 }
 
-// f(numbers, how many) of everything that the step loop reads, always in the same order.
+// f(numbers, how many) of everything that a run reads, always in the same order.
 template <class Real, class P, class F>
 inline void for_parameter_numbers(P& p, F&& f) {
   using Number = std::conditional_t<std::is_const_v<P>, const Real, Real>;

@@ -59,13 +59,14 @@ class Run {
         begin_contact_memory(m_, w_);
       }
       differentiate_kept(t);
-      now_.move_to(t, y_.data());
+      now_.move_to(Real(t), y_.data());
       if (step_ == 0) checks_.start_ledger(now_);
       check_state();
       if (step_ % setting_.energy_stride == 0) check_energy();
       if (active_ == 0) return;
       watch_.see(step_, t, y_.data(), w_, active_);
-      observers_.observe(step_, now_);
+      observers_.observe(
+          step_, [this](int, std::size_t, const Channel& channel) { return now_.sample(channel); });
       if (step_ == setting_.count) break;
       if (step_ % kStepsBetweenPolls == 0 && interrupted(t)) return;
       if (contact_count(m_) > 0) {
@@ -118,17 +119,16 @@ class Run {
 
   // False, and nothing has changed, where some lane needs the general step.
   [[gnu::noinline]] bool step_by_code(double t) {
-    written_.read(t, [this](auto&& f) { for_state(f); });
+    written_.read(t, now_.initial_energy(), [this](auto&& f) { for_state(f); });
     if (!written_.run(active_)) return false;
     if (bristle_count(m_) > 0 && (lane_bits(watch_.bristles_hold(bristles())) & active_) != active_)
       return false;
     written_.write_kept(w_);
-    w_.redundant = w_.jammed = 0;
-    w_.kept_rows = Real(static_cast<double>(cut_row_count(m_)));
-    now_.move_to(t, y_.data());
-    checks_.see_rank(Real(1.0) > Real(0.0), w_.kept_rows);
+    checks_.see_rank(Real(1.0) > Real(0.0), Real(static_cast<double>(cut_row_count(m_))));
     watch_.see(step_, t, y_.data(), w_, active_);
-    observers_.observe(step_, now_);
+    observers_.observe(step_, [this](int observer, std::size_t i, const Channel&) {
+      return written_.observed(observer, i);
+    });
     if (step_ % kStepsBetweenPolls == 0 && interrupted(t)) return true;
     written_.write_next([this](auto&& f) { for_state(f); });
     if (active_ != kAllLanes<Real>) reset_idle_lanes();

@@ -212,28 +212,10 @@ class CodeForPack {
   CodeForPack(const Mechanism& m, std::span<const LaneCase> cases, const SimulationOptions& options,
               const StepLoopChoice& choice, int lanes) {
     if (choice.general) return;
-    const Observers& form = *cases[0].observers;
-    const Kept kept = kept_often(m, form);
-    written_ = written_step(m, cases, kept, make_step_grid(options).count, choice.level);
-    if (!written_) return;
-    for_observers(m, form, [&](const Sampling& sampling, Kept needs) {
-      if (needs > kept) beyond_.push_back(sampling);
-    });
-    const int frames = (lanes + kFrameLanes - 1) / kFrameLanes;
-    frames_.resize(static_cast<std::size_t>(frames * written_->frame_slots));
-    for (int i = 0; i < frames; ++i) {
-      for (const auto& [slot, bits] : written_->constants) {
-        Slot& place = frames_[static_cast<std::size_t>(i * written_->frame_slots + slot)];
-        for (double& number : place.numbers) number = std::bit_cast<double>(bits);
-      }
-    }
-    code_ = {written_->code->function(),
-             kept,
-             written_->slots,
-             frames_.front().numbers,
-             written_->frame_slots * kFrameLanes,
-             beyond_.data(),
-             static_cast<int>(beyond_.size())};
+    list_observed(m, *cases[0].observers);
+    const long steps = make_step_grid(options).count;
+    written_ = written_step(m, cases, observed_, steps, choice.level);
+    if (written_) fill_frames((lanes + kFrameLanes - 1) / kFrameLanes);
   }
 
   const StepCode* get() const { return written_ ? &code_ : nullptr; }
@@ -242,31 +224,42 @@ class CodeForPack {
   struct alignas(kFrameLanes * sizeof(double)) Slot {
     double numbers[kFrameLanes] = {};
   };
-  static constexpr long kOften = 8;  // steps: what is looked at more rarely is worth a general step
+  static constexpr long kOften = 8;  // steps: what is looked at more rarely takes a general step
 
-  // f(sampling, what it takes) of all observers.
-  template <class F>
-  static void for_observers(const Mechanism& m, const Observers& form, F&& f) {
-    const auto needs = [&m](const std::vector<Channel>& channels) {
-      Kept most = Kept::motion;
-      for (const Channel& c : channels) most = std::max(most, kept_for(m, c));
-      return most;
+  void list_observed(const Mechanism& m, const Observers& form) {
+    const auto add = [&](const Sampling& sampling, std::span<const Channel> channels) {
+      const bool is_written = sampling.stride < kOften &&
+                              std::all_of(channels.begin(), channels.end(),
+                                          [&m](const Channel& c) { return is_writable(m, c); });
+      first_.push_back(is_written ? static_cast<int>(observed_.size()) : -1);
+      if (is_written) {
+        observed_.insert(observed_.end(), channels.begin(), channels.end());
+      } else {
+        beyond_.push_back(sampling);
+      }
     };
-    for (const auto& s : form.series) f(s.sampling, needs(s.channels));
-    for (const auto& s : form.comparisons) f(s.sampling, needs(s.channels));
-    for (const auto& s : form.reductions) f(s.sampling, kept_for(m, s.channel));
+    for (const auto& s : form.comparisons) add(s.sampling, s.channels);
+    for (const auto& s : form.reductions) add(s.sampling, {&s.channel, 1});
+    for (const auto& s : form.series) add(s.sampling, s.channels);
   }
 
-  static Kept kept_often(const Mechanism& m, const Observers& form) {
-    Kept most = Kept::motion;
-    for_observers(m, form, [&](const Sampling& sampling, Kept needs) {
-      if (sampling.stride < kOften) most = std::max(most, needs);
-    });
-    return most;
+  void fill_frames(int frames) {
+    frames_.resize(static_cast<std::size_t>(frames * written_->frame_slots));
+    for (int i = 0; i < frames; ++i) {
+      for (const auto& [slot, bits] : written_->constants) {
+        Slot& place = frames_[static_cast<std::size_t>(i * written_->frame_slots + slot)];
+        for (double& number : place.numbers) number = std::bit_cast<double>(bits);
+      }
+    }
+    code_ = {written_->code->function(),          written_->slots, frames_.front().numbers,
+             written_->frame_slots * kFrameLanes, first_.data(),   beyond_.data(),
+             static_cast<int>(beyond_.size())};
   }
 
-  std::shared_ptr<const WrittenStep> written_;
+  std::vector<Channel> observed_;
+  std::vector<int> first_;  // by observer
   std::vector<Sampling> beyond_;
+  std::shared_ptr<const WrittenStep> written_;
   std::vector<Slot> frames_;
   StepCode code_;
 };

@@ -24,7 +24,7 @@ class StepTracer {
         contact_steps_(m.contacts.size()),
         rk_(y_.size()) {}
 
-  StepSlots trace(Kept kept) {
+  StepSlots trace(const std::vector<Channel>& observed) {
     StepSlots slots;
     const Traced t = input(StepSlots::t), h = input(StepSlots::h);
     slots.state = slot_;
@@ -32,9 +32,10 @@ class StepTracer {
     differentiate(t, y_.data(), rk_.first_slope());
     const auto moving = checks_.moves(m_, y_.data(), w_);
     const auto closed = checks_.is_closed(m_, w_, input(StepSlots::drift_limit));
-    std::vector<Traced> seen;
+    std::vector<Traced> kept;
     for_kept_numbers<Traced>(
-        kept, w_, [&](const Traced* x, std::size_t n) { seen.insert(seen.end(), x, x + n); });
+        w_, [&](const Traced* x, std::size_t n) { kept.insert(kept.end(), x, x + n); });
+    const std::vector<Traced> samples = sample(t, observed);
     update_contact_memory(m_, w_, contact_steps_.data(), y_.data() + m_.nq + m_.nv, log_);
     rk_.advance(t, h, y_.data(),
                 [this](Traced s, const Traced* y, Traced* slope) { differentiate(s, y, slope); });
@@ -45,7 +46,9 @@ class StepTracer {
     graph_.require((moving && closed).value);
     graph_.write(graph_.required(), slot_++);
     slots.kept = slot_;
-    for (const Traced& x : seen) graph_.write(x.value, slot_++);
+    for (const Traced& x : kept) graph_.write(x.value, slot_++);
+    slots.observed = slot_;
+    for (const Traced& x : samples) graph_.write(x.value, slot_++);
     slots.end = slot_;
     return slots;
   }
@@ -94,6 +97,15 @@ class StepTracer {
     });
   }
 
+  std::vector<Traced> sample(Traced t, const std::vector<Channel>& observed) {
+    Instant<Traced> now(m_, p_, w_);
+    now.move_to(t, y_.data());
+    now.set_initial_energy(input(StepSlots::initial_energy));
+    std::vector<Traced> samples;
+    for (const Channel& c : observed) samples.push_back(now.sample(c));
+    return samples;
+  }
+
   void differentiate(Traced t, const Traced* y, Traced* slope) {
     evaluate_state(m_, p_, t, y, w_);
     write_slopes(m_, y, w_, slope);
@@ -113,11 +125,11 @@ class StepTracer {
 }  // namespace
 
 StepTrace trace_step(const Mechanism& m, const Parameters<double>& sizes,
-                     const std::vector<Known>& known, Kept kept) {
+                     const std::vector<Known>& known, const std::vector<Channel>& observed) {
   const FlushDenormals flush;
   StepTrace step;
   const codegen::Trace tracing(step.graph);
-  step.slots = StepTracer(m, sizes, known, step.graph).trace(kept);
+  step.slots = StepTracer(m, sizes, known, step.graph).trace(observed);
   return step;
 }
 

@@ -5,6 +5,7 @@
 
 #include "core/codegen/graph.h"
 #include "core/model/mechanism.h"
+#include "core/simulation/channels.h"
 #include "core/simulation/step_slots.h"
 
 namespace linkstudy {
@@ -17,8 +18,9 @@ struct StepTrace {
   StepSlots slots;
 };
 
-// `known`: by number of for_parameter_numbers; `sizes`: parameters of any case. Throws Untraceable.
+// `known`: by number of for_parameter_numbers; `sizes`: parameters of any case. The graph writes
+// the channels observed. Throws Untraceable.
 StepTrace trace_step(const Mechanism& m, const Parameters<double>& sizes,
-                     const std::vector<Known>& known, Kept kept);
+                     const std::vector<Known>& known, const std::vector<Channel>& observed);
 
 }  // namespace linkstudy

@@ -21,7 +21,7 @@ class WrittenLanes {
 
   bool is_there() const { return code_ != nullptr && !left_; }
 
-  // Observers look at more in this step than the code keeps.
+  // Observers look in this step at what the code does not write.
   bool leaves_out(long step) const {
     for (int i = 0; i < code_->beyond_count; ++i)
       if (code_->beyond[i].hits(step)) return true;
@@ -40,8 +40,9 @@ class WrittenLanes {
 
   // for_state(f) calls f(numbers, how many), as for_state_numbers does.
   template <class ForState>
-  void read(double t, ForState&& for_state) {
+  void read(double t, Real initial_energy, ForState&& for_state) {
     put(StepSlots::t, Real(t));
+    put(StepSlots::initial_energy, initial_energy);
     int slot = code_->slots.state;
     for_state([&](const Real* x, std::size_t n) {
       for (std::size_t k = 0; k < n; ++k) put(slot++, x[k]);
@@ -61,9 +62,14 @@ class WrittenLanes {
   template <class W>
   void write_kept(W& w) const {
     int slot = code_->slots.kept;
-    for_kept_numbers<Real>(code_->kept, w, [&](Real* x, std::size_t n) {
+    for_kept_numbers<Real>(w, [&](Real* x, std::size_t n) {
       for (std::size_t k = 0; k < n; ++k) x[k] = get(slot++);
     });
+  }
+
+  // Channel i of an observer.
+  Real observed(int observer, std::size_t i) const {
+    return get(code_->slots.observed + code_->first_observed[observer] + static_cast<int>(i));
   }
 
   template <class ForState>

@@ -37,6 +37,14 @@ std::vector<Known> known_in_all(std::span<const LaneCase> cases) {
   return known;
 }
 
+// But for their names.
+bool same_channels(const std::vector<Channel>& a, const std::vector<Channel>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Channel& x, const Channel& y) {
+    return x.quantity == y.quantity && x.index == y.index && x.component == y.component &&
+           x.body == y.body;
+  });
+}
+
 // Code made for `code` is right for numbers of which `pack` is known.
 bool serves(const std::vector<Known>& code, const std::vector<Known>& pack) {
   return std::equal(code.begin(), code.end(), pack.begin(), pack.end(),
@@ -51,7 +59,8 @@ std::vector<Known> known_in_both(std::vector<Known> a, const std::vector<Known>&
 
 struct Structure {
   MechanismStructure structure;
-  long steps = 0;  // asked for so far
+  std::size_t numbers;  // of its parameters: chosen points are no structure
+  long steps = 0;       // asked for so far
   bool traceable = true;
   std::vector<std::shared_ptr<const WrittenStep>> written;
 };
@@ -59,21 +68,22 @@ struct Structure {
 class Library {
  public:
   std::shared_ptr<const WrittenStep> find(const Mechanism& m, std::span<const LaneCase> cases,
-                                          Kept kept, long steps, Kernels choice) {
+                                          const std::vector<Channel>& observed, long steps,
+                                          Kernels choice) {
     const std::lock_guard lock(mutex_);
-    Structure& s = structure_of(m);
+    std::vector<Known> known = known_in_all(cases);
+    Structure& s = structure_of(m, known.size());
     s.steps += steps;
     if (!s.traceable) return nullptr;
-    std::vector<Known> known = known_in_all(cases);
     const WrittenStep* near = nullptr;
     for (const auto& w : s.written) {
-      if (w->kept != kept || w->known.size() != known.size()) continue;
+      if (!same_channels(w->observed, observed)) continue;
       if (serves(w->known, known)) return w;
       near = w.get();
     }
     if (choice != Kernels::written && s.steps < kStepsPerFreedom * (m.nv + 1)) return nullptr;
     if (near) known = known_in_both(std::move(known), near->known);
-    return write(m, *cases[0].parameters, std::move(known), kept, s);
+    return write(m, *cases[0].parameters, std::move(known), observed, s);
   }
 
   WrittenReport report() {
@@ -83,25 +93,26 @@ class Library {
 
  private:
   // The one asked for last comes first.
-  Structure& structure_of(const Mechanism& m) {
-    const auto found =
-        std::find_if(structures_.begin(), structures_.end(),
-                     [&](const Structure& s) { return same_structure(s.structure, m); });
+  Structure& structure_of(const Mechanism& m, std::size_t numbers) {
+    const auto found = std::find_if(
+        structures_.begin(), structures_.end(),
+        [&](const Structure& s) { return s.numbers == numbers && same_structure(s.structure, m); });
     if (found != structures_.end()) {
       std::rotate(structures_.begin(), found, found + 1);
     } else {
       if (structures_.size() == kMostStructures) structures_.pop_back();
-      structures_.insert(structures_.begin(), {m, 0, true, {}});
+      structures_.insert(structures_.begin(), {m, numbers, 0, true, {}});
     }
     return structures_.front();
   }
 
   std::shared_ptr<const WrittenStep> write(const Mechanism& m, const Parameters<double>& sizes,
-                                           std::vector<Known> known, Kept kept, Structure& s) {
+                                           std::vector<Known> known,
+                                           const std::vector<Channel>& observed, Structure& s) {
     const auto begin = std::chrono::steady_clock::now();
     std::optional<StepTrace> trace;
     try {
-      trace.emplace(trace_step(m, sizes, known, kept));
+      trace.emplace(trace_step(m, sizes, known, observed));
     } catch (const Untraceable&) {
       s.traceable = false;
       return nullptr;
@@ -113,7 +124,7 @@ class Library {
     ++kernels_;
     seconds_ += spent.count();
     s.written.push_back(std::make_shared<const WrittenStep>(
-        WrittenStep{trace->slots, kept, std::move(known), program.constants, program.slots,
+        WrittenStep{trace->slots, observed, std::move(known), program.constants, program.slots,
                     program.operations, spent.count(), std::move(code)}));
     return s.written.back();
   }
@@ -147,35 +158,24 @@ WrittenReport written_report() {
 }
 
 std::shared_ptr<const WrittenStep> written_step(const Mechanism& m, std::span<const LaneCase> cases,
-                                                Kept kept, long steps, const SimdLevel& level) {
+                                                const std::vector<Channel>& observed, long steps,
+                                                const SimdLevel& level) {
   if (!why_not_written(level).empty()) return nullptr;
-  return library().find(m, cases, kept, steps, level.kernels);
+  return library().find(m, cases, observed, steps, level.kernels);
 }
 
-Kept kept_for(const Mechanism& m, const Channel& channel) {
+bool is_writable(const Mechanism& m, const Channel& channel) {
+  if (m.loop_joints.empty()) return true;
   switch (channel.quantity) {
-    case Quantity::time:
-    case Quantity::q:
-    case Quantity::v:
-    case Quantity::a:
-    case Quantity::penetration:
-    case Quantity::normal_force:
-    case Quantity::friction_force:
-    case Quantity::bristle:
-    case Quantity::contact_state:
-    case Quantity::friction_load:
-    case Quantity::joint_friction:
-    case Quantity::supplied:
-    case Quantity::dissipated:
-      return Kept::motion;
+    case Quantity::joint_force:
+    case Quantity::joint_torque:
+    case Quantity::joint_force_local:
+    case Quantity::joint_torque_local:
     case Quantity::closure_force:
     case Quantity::closure_torque:
-      return m.loop_joints.empty() ? Kept::closures : Kept::everything;
-    case Quantity::closure_gap:
-    case Quantity::eccentricity:
-      return Kept::closures;
+      return false;
     default:
-      return Kept::everything;
+      return true;
   }
 }
 

@@ -18,7 +18,7 @@ namespace linkstudy {
 
 struct WrittenStep {
   StepSlots slots;
-  Kept kept = Kept::motion;
+  std::vector<Channel> observed;
   std::vector<Known> known;
   std::vector<codegen::SlotValue> constants;
   int frame_slots = 0;
@@ -37,13 +37,14 @@ WrittenReport written_report();
 // Why this process runs the general step loop alone, or empty. Asks for executable memory once.
 std::string why_not_written(const SimdLevel& level);
 
-// The step for a pack, or null: its structure cannot be traced, this machine has no AVX2 or refuses
-// executable memory, or what is left to run is too little to gain by it. May be called by several
-// threads.
+// The step for a pack that writes these channels, or null: its structure cannot be traced, this
+// machine has no AVX2 or refuses executable memory, or what is left to run is too little to gain by
+// it. May be called by several threads.
 std::shared_ptr<const WrittenStep> written_step(const Mechanism& m, std::span<const LaneCase> cases,
-                                                Kept kept, long steps, const SimdLevel& level);
+                                                const std::vector<Channel>& observed, long steps,
+                                                const SimdLevel& level);
 
-// Which channels read more of an evaluation than is kept.
-Kept kept_for(const Mechanism& m, const Channel& channel);
+// False of channels that are fitted lane by lane: reactions shared in loops.
+bool is_writable(const Mechanism& m, const Channel& channel);
 
 }  // namespace linkstudy

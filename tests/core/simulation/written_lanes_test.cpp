@@ -12,10 +12,10 @@
 namespace linkstudy::testing::written_lanes_test {
 namespace {
 
-// y' = y + t in every lane; all is well where y is below 100.
+// y' = y + t in every lane, past the three numbers of gravity; all is well where y is below 100.
 void step(double* frame) {
   for (int k = 0; k < kFrameLanes; ++k) {
-    const double y = frame[6 * kFrameLanes + k];
+    const double y = frame[7 * kFrameLanes + k];
     frame[9 * kFrameLanes + k] = y + frame[k];
     const std::uint64_t fine = y < 100.0 ? ~std::uint64_t{0} : 0;
     std::memcpy(frame + 12 * kFrameLanes + k, &fine, sizeof fine);
@@ -27,7 +27,7 @@ class Frames {
  public:
   Frames() {
     code_.step = step;
-    code_.slots.state = 6;
+    code_.slots.state = 7;
     code_.slots.next = 9;
     code_.slots.fine = 12;
     code_.frames = numbers_.data();
@@ -37,7 +37,7 @@ class Frames {
   // Writes y' over y; true if all is well for the lanes asked for.
   bool step_all(double t, Real& y, unsigned asked) {
     const auto state = [&](auto&& f) { f(&y, std::size_t{1}); };
-    lanes_.read(t, state);
+    lanes_.read(t, Real(0.0), state);
     if (!lanes_.run(asked)) return false;
     lanes_.write_next(state);
     return true;

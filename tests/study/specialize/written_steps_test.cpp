@@ -43,7 +43,7 @@ struct Runs {
 };
 
 // Lanes that differ in their masses and, from the second on, in their speed.
-Runs run(const Model& model, const SimulationOptions& options, int count,
+Runs run(const Model& model, const SimulationOptions& options, int count, long stride,
          const StepLoopChoice& choice) {
   const StepGrid grid = make_step_grid(options);
   Runs runs;
@@ -56,7 +56,7 @@ Runs run(const Model& model, const SimulationOptions& options, int count,
     const double scale = 1.0 + 1e-3 * static_cast<double>(i);
     for (auto& b : runs.parameters[i].bodies) b.mass *= scale;
     Observers& o = runs.observers[i];
-    o.series.push_back({all, {0, grid.count, 97}, {}});
+    o.series.push_back({all, {0, grid.count, stride}, {}});
     runs.cases.push_back({&runs.parameters[i], &runs.starts[i], &o, {}});
   }
   simulate_batch(model.mechanism, options, runs.cases, {}, choice);
@@ -98,11 +98,13 @@ TEST(WrittenSteps, Of_every_shipped_model_have_the_bits_of_the_general_step_loop
     ASSERT_EQ(p.cause, Cause::ok) << path << p.message;
     for (const SimdLevel& level : testing::simd_levels()) {
       const int before = written_report().kernels;
-      const Runs written =
-          run(p.model, input.options, level.lanes, {with(level, Kernels::written), false});
-      const Runs general =
-          run(p.model, input.options, level.lanes, {with(level, Kernels::general), true});
-      expect_same(written, general, path + " " + std::string(name_of(level.isa)));
+      for (const long stride : {3, 97}) {  // channels written with the step, and by general steps
+        const Runs written = run(p.model, input.options, level.lanes, stride,
+                                 {with(level, Kernels::written), false});
+        const Runs general =
+            run(p.model, input.options, level.lanes, stride, {with(level, Kernels::general), true});
+        expect_same(written, general, path + " " + std::string(name_of(level.isa)));
+      }
       const bool writes = level.isa != InstructionSet::baseline;
       EXPECT_EQ(written_report().kernels > before, writes) << path;
     }
