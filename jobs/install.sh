@@ -11,7 +11,7 @@ packages=(
   g++ cmake ninja-build git ca-certificates
   openmpi-bin libopenmpi-dev libhdf5-dev hdf5-tools libnlopt-cxx-dev libssl-dev
   libeigen3-dev libboost-dev libboost-program-options-dev
-  libtomlplusplus-dev libfmt-dev libspdlog-dev nlohmann-json3-dev
+  libtomlplusplus-dev libfmt-dev libspdlog-dev nlohmann-json3-dev libxbyak-dev
   libgtest-dev libgmock-dev libbenchmark-dev clang-format
   libjs-chart.js libjs-three gnuplot-nox
   python3 python3-h5py python3-xarray python3-h5netcdf python3-netcdf4

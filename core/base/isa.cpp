@@ -22,6 +22,14 @@ InstructionSet wanted(const std::string& name) {
   return *isa;
 }
 
+Kernels wanted_kernels(const std::string& name) {
+  const std::optional<Kernels> kernels = find_word<Kernels>(name);
+  if (!kernels || *kernels == Kernels::automatic) {
+    throw SimdError("LINKSTUDY_KERNELS=" + name + ": must be written or general");
+  }
+  return *kernels;
+}
+
 }  // namespace
 
 bool machine_has(InstructionSet isa) {
@@ -34,7 +42,7 @@ bool machine_has(InstructionSet isa) {
 #endif
 }
 
-SimdLevel choose_simd_level(const char* simd, const char* lanes) {
+SimdLevel choose_simd_level(const char* simd, const char* lanes, const char* kernels) {
   SimdLevel level;
   level.isa = simd && *simd ? wanted(simd) : widest();
   level.lanes = native_lanes(level.isa);
@@ -45,12 +53,14 @@ SimdLevel choose_simd_level(const char* simd, const char* lanes) {
     }
     level.lanes = 1;
   }
+  if (kernels && *kernels) level.kernels = wanted_kernels(kernels);
   return level;
 }
 
 SimdLevel simd_level() {
   static const SimdLevel level =
-      choose_simd_level(std::getenv("LINKSTUDY_SIMD"), std::getenv("LINKSTUDY_LANES"));
+      choose_simd_level(std::getenv("LINKSTUDY_SIMD"), std::getenv("LINKSTUDY_LANES"),
+                        std::getenv("LINKSTUDY_KERNELS"));
   return level;
 }
 

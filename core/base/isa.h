@@ -1,6 +1,8 @@
 // Which instruction set the step loop runs on: the widest that machine and build have, unless the
 // environment variable LINKSTUDY_SIMD says `baseline`, `avx2` or `avx512` (a set that is not there
 // is an error), and how many cases a pack holds: its native width, or 1 with LINKSTUDY_LANES=1.
+// LINKSTUDY_KERNELS=general runs no code that the program has written for a linkage (core/codegen),
+// LINKSTUDY_KERNELS=written writes it even for a run too short to gain by it.
 #pragma once
 
 #include <stdexcept>
@@ -17,9 +19,17 @@ inline constexpr auto kWords<InstructionSet> =
                                 {InstructionSet::avx2, "avx2"},
                                 {InstructionSet::avx512, "avx512"}});
 
+enum class Kernels { automatic, written, general };
+
+template <>
+inline constexpr auto kWords<Kernels> = make_words<Kernels>({{Kernels::automatic, "automatic"},
+                                                             {Kernels::written, "written"},
+                                                             {Kernels::general, "general"}});
+
 struct SimdLevel {
   InstructionSet isa = InstructionSet::baseline;
   int lanes = 1;
+  Kernels kernels = Kernels::automatic;
 };
 
 // What the environment asks for was not possible.
@@ -30,8 +40,8 @@ struct SimdError : std::runtime_error {
 // Decided once a process. Throws SimdError.
 SimdLevel simd_level();
 
-// The decision itself, for values of the two variables (null: not set).
-SimdLevel choose_simd_level(const char* simd, const char* lanes);
+// The decision itself, for values of the variables (null: not set).
+SimdLevel choose_simd_level(const char* simd, const char* lanes, const char* kernels = nullptr);
 
 bool machine_has(InstructionSet isa);
 

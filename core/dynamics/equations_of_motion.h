@@ -11,7 +11,7 @@ namespace linkstudy {
 
 // Kinematics, forces, bias, mass matrix and its factor.
 template <class M, class Real>
-inline void update_factored_mass_matrix(const M& m, const Parameters<Real>& p, double t,
+inline void update_factored_mass_matrix(const M& m, const Parameters<Real>& p, Real t,
                                         const Real* q, const Real* v, Workspace<Real, M>& w) {
   update_kinematics(m, p, q, v, w);
   update_inertial_wrenches(m, w);
@@ -22,7 +22,7 @@ inline void update_factored_mass_matrix(const M& m, const Parameters<Real>& p, d
 }
 
 template <class M, class Real>
-inline void evaluate(const M& m, const Parameters<Real>& p, double t, const Real* q, const Real* v,
+inline void evaluate(const M& m, const Parameters<Real>& p, Real t, const Real* q, const Real* v,
                      Workspace<Real, M>& w) {
   update_factored_mass_matrix(m, p, t, q, v, w);
   update_cut_joints(m, p, w);

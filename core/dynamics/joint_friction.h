@@ -24,6 +24,16 @@ inline constexpr double kSettledLoad = 1e-10;   // of the load
 inline constexpr double kLeastLoad = 1e-12;     // N: what counts as no load
 inline constexpr double kLeastChange = 1e-280;  // N^2: too little to divide by
 
+// A scalar that cannot see when the search is over goes a number of passes (core/codegen/traced.h).
+template <class Real>
+constexpr int most_passes() {
+  if constexpr (requires { RealTraits<Real>::blind_passes; }) {
+    return RealTraits<Real>::blind_passes;
+  } else {
+    return kMostPasses;
+  }
+}
+
 template <class Real>
 inline Real length_of(const Vec3<Real>& a) {
   return sqrt(dot(a, a));
@@ -161,7 +171,7 @@ template <class M, class Real>
                                               Workspace<Real, M>& w) {
   start_loads(m, p, v, w);
   auto settled = load_gaps(m, p, w);
-  for (int pass = 0; pass < kMostPasses && !all(settled); ++pass) {
+  for (int pass = 0; pass < most_passes<Real>() && !all(settled); ++pass) {
     if (pass > 0) learn_from_last_change(m, w);
     change_loads(m, p, settled, w);
     solve_accelerations(m, p, w);

@@ -11,21 +11,21 @@ namespace linkstudy {
 // Amplitude of a load at time t, N or N m.
 template <class Real>
 inline Real course_value(const LoadStructure& s, const LoadParameters<Real>& n,
-                         const SegmentParameters<Real>* segments, double t) {
+                         const SegmentParameters<Real>* segments, Real t) {
   switch (s.course) {
     case CourseShape::constant:
       return n.value;
     case CourseShape::ramp:
-      return n.value * ramp_course(Real(t), n.rate);
+      return n.value * ramp_course(t, n.rate);
     case CourseShape::smooth:
-      return n.value * smooth_course(Real(t), n.rate);
+      return n.value * smooth_course(t, n.rate);
     case CourseShape::table:
       break;
   }
   Real value = n.value;
   for (int i = s.table_begin; i < s.table_end; ++i) {
     const SegmentParameters<Real>& g = segments[i];
-    value = value + linear_segment(Real(t), g.begin, g.length, g.slope);
+    value = value + linear_segment(t, g.begin, g.length, g.slope);
   }
   return value;
 }
@@ -58,7 +58,7 @@ inline void add_link_load(const LoadStructure& s, const LoadParameters<Real>& n,
 }
 
 template <class M, class Real>
-inline void add_loads(const M& m, const Parameters<Real>& p, double t, const Real* v,
+inline void add_loads(const M& m, const Parameters<Real>& p, Real t, const Real* v,
                       Workspace<Real, M>& w) {
   for_loads(m, [&](auto i) {
     const LoadStructure& s = at(m.loads, i);
@@ -109,7 +109,7 @@ inline void add_sdes(const M& m, const Parameters<Real>& p, Workspace<Real, M>& 
 
 // Precondition: BodyState::wrench holds the inertial wrenches; the forces are taken off them.
 template <class M, class Real>
-inline void update_applied_forces(const M& m, const Parameters<Real>& p, double t, const Real* q,
+inline void update_applied_forces(const M& m, const Parameters<Real>& p, Real t, const Real* q,
                                   const Real* v, Workspace<Real, M>& w) {
   for_velocities(m, [&](auto k) { at(w.tau, k) = Real(0.0); });
   w.supplied_power = Real(0.0);

@@ -37,11 +37,11 @@ class RungeKutta {
 
   // f(t, y, dy) writes dy; first_slope() must hold f(t, y).
   template <class F>
-  void advance(double t, double h, Real* y, F&& f) {
+  void advance(Real t, Real h, Real* y, F&& f) {
     for_range(Index<1>(), Index<Tableau::stages>(), [&](auto i) {
       constexpr auto row = static_cast<std::size_t>(i());
       combine<i()>(Tableau::a[row], h, y, stage_.data());
-      f(t + Tableau::c[row] * h, stage_.data(), slopes_[row].data());
+      f(t + Real(Tableau::c[row]) * h, stage_.data(), slopes_[row].data());
     });
     combine<Tableau::stages>(Tableau::b, h, y, y);
   }
@@ -49,12 +49,14 @@ class RungeKutta {
  private:
   // out = y + h sum of the first slopes, zero weights skipped
   template <int Count>
-  void combine(const std::array<double, Tableau::stages>& weights, double h, const Real* y,
+  void combine(const std::array<double, Tableau::stages>& weights, Real h, const Real* y,
                Real* out) const {
+    std::array<Real, Tableau::stages> steps;
+    for_range(Index<0>(), Index<Count>(), [&](auto i) { at(steps, i) = h * Real(at(weights, i)); });
     const auto add_slopes = [&](auto j) {
       Real x = y[j];
       for_range(Index<0>(), Index<Count>(), [&](auto i) {
-        if (at(weights, i) != 0.0) x = madd(Real(h * at(weights, i)), at(slopes_[i()], j), x);
+        if (at(weights, i) != 0.0) x = madd(at(steps, i), at(slopes_[i()], j), x);
       });
       out[j] = x;
     };

@@ -22,17 +22,18 @@ class Instant {
   }
 
   // y: q (nq), v (nv), z (nz), supplied, dissipated; w must hold the evaluation at (t, y).
-  void move_to(double t, const Real* y) {
+  void move_to(Real t, const Real* y) {
     t_ = t;
     y_ = y;
     has_reactions_ = has_accelerations_ = has_energy_ = false;
   }
   void set_initial_energy(Real e) { initial_energy_ = e; }
+  Real initial_energy() const { return initial_energy_; }
 
   Real sample(const Channel& c) {
     switch (c.quantity) {
       case Quantity::time:
-        return Real(t_);
+        return t_;
       case Quantity::q:
         return y_[c.index];
       case Quantity::v:
@@ -178,7 +179,7 @@ class Instant {
   const M& m_;
   const Parameters<Real>& p_;
   const Workspace<Real, M>& w_;
-  double t_ = 0.0;
+  Real t_ = Real(0.0);
   const Real* y_ = nullptr;
   Reactions<Real, M> reactions_;
   Array<SharedReactions<Real>, FixedStructure<M> ? 0 : -1> shared_;  // one, or none

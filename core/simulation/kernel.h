@@ -7,6 +7,7 @@
 #include "core/model/parameters.h"
 #include "core/simulation/cause.h"
 #include "core/simulation/observers.h"
+#include "core/simulation/step_slots.h"
 
 namespace linkstudy {
 
@@ -37,6 +38,20 @@ struct LaneCase {
   double* looks = nullptr;  // rows of core/simulation/looks.h, or none
 };
 
+// Code for a whole step (core/simulation/written_steps.h), for kFrameLanes lanes on each frame.
+inline constexpr int kFrameLanes = 4;
+struct StepCode {
+  void (*step)(double* frame) = nullptr;
+  StepSlots slots;
+  double* frames = nullptr;  // as many as the lanes need, one after the other
+  int frame_numbers = 0;     // in a frame
+  // First channel of each observer, comparisons, reductions and series in this order, among those
+  // that the code writes; below 0 of one whose channels it does not write, and when those look.
+  const int* first_observed = nullptr;
+  const Sampling* beyond = nullptr;
+  int beyond_count = 0;
+};
+
 struct KernelRun {
   double t0;
   double h;
@@ -46,6 +61,7 @@ struct KernelRun {
   // Called now and then: anything but ok ends all lanes.
   Cause (*poll)(void* context, double t);
   void* context;
+  const StepCode* code = nullptr;  // none: the general step loop alone
 };
 
 // cases: up to as many as the kernel has lanes.

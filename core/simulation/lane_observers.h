@@ -24,16 +24,23 @@ class LaneObservers {
     rows_.resize(form.series.size());
   }
 
-  template <class M>
-  void observe(long step, Instant<Real, M>& now) {
+  // values(observer, i, channel): channel i of an observer; observers count comparisons, reductions
+  // and series in this order. No zero is seen with a sign: which it has is not a matter of motion,
+  // and step loops differ in it.
+  template <class Values>
+  void observe(long step, Values&& values) {
     const Observers& form = *cases_[0].observers;
-    for (std::size_t i = 0; i < comparisons_.size(); ++i) {
-      compare(form.comparisons[i], comparisons_[i], step, now);
+    int observer = 0;
+    const auto of = [&](std::size_t i, const Channel& c) {
+      return values(observer, i, c) + Real(0.0);
+    };
+    for (std::size_t i = 0; i < comparisons_.size(); ++i, ++observer) {
+      compare(form.comparisons[i], comparisons_[i], step, of);
     }
-    for (std::size_t i = 0; i < reductions_.size(); ++i) {
-      reduce(form.reductions[i], reductions_[i], step, now);
+    for (std::size_t i = 0; i < reductions_.size(); ++i, ++observer) {
+      reduce(form.reductions[i], reductions_[i], step, of);
     }
-    for (std::size_t i = 0; i < rows_.size(); ++i) record(form.series[i], i, step, now);
+    for (std::size_t i = 0; i < rows_.size(); ++i, ++observer) record(form.series[i], i, step, of);
   }
 
   // Hands over what lane i has seen so far.
@@ -67,15 +74,15 @@ class LaneObservers {
     Real last = Real(0.0);
   };
 
-  template <class M>
-  static void compare(const Comparison& form, LaneComparison& s, long step, Instant<Real, M>& now) {
+  template <class Of>
+  static void compare(const Comparison& form, LaneComparison& s, long step, Of&& of) {
     if (!form.sampling.hits(step)) return;
     const std::size_t n = s.max_error.size();
     const double* reference = form.reference + s.seen * n;
     const Real weight(time_weight(form.sampling, {}, step));
     Real vector_square(0.0);
     for (std::size_t i = 0; i < n; ++i) {
-      const Real error = now.sample(form.channels[i]) - Real(form.sign[i] * reference[i]);
+      const Real error = of(i, form.channels[i]) - Real(form.sign[i] * reference[i]);
       s.max_error[i] = max(s.max_error[i], abs(error));
       s.square_error[i] = madd(weight * error, error, s.square_error[i]);
       vector_square = madd(error, error, vector_square);
@@ -84,11 +91,10 @@ class LaneObservers {
     ++s.seen;
   }
 
-  template <class M>
-  static void reduce(const ChannelReduction& form, LaneReduction& s, long step,
-                     Instant<Real, M>& now) {
+  template <class Of>
+  static void reduce(const ChannelReduction& form, LaneReduction& s, long step, Of&& of) {
     if (!form.sampling.hits(step)) return;
-    const Real x = now.sample(form.channel);
+    const Real x = of(0, form.channel);
     s.min = min(s.min, x);
     s.max = max(s.max, x);
     const Real weighted = Real(time_weight(form.sampling, form.ends, step)) * x;
@@ -98,13 +104,13 @@ class LaneObservers {
     ++s.seen;
   }
 
-  template <class M>
-  void record(const Series& form, std::size_t index, long step, Instant<Real, M>& now) {
+  template <class Of>
+  void record(const Series& form, std::size_t index, long step, Of&& of) {
     if (!form.sampling.hits(step)) return;
     const std::size_t n = form.channels.size();
     const std::size_t begin = rows_[index].count * n;
     for (std::size_t k = 0; k < n; ++k) {
-      const Real x = now.sample(form.channels[k]);
+      const Real x = of(k, form.channels[k]);
       for (int i = 0; i < count_; ++i) {
         cases_[i].observers->series[index].values[begin + k] = lane(x, i);
       }

@@ -177,7 +177,9 @@ class LocatedRun {
     checks_.see_rank(true, w_.kept_rows);
     if (w_.jammed != 0) fail(Cause::diverged);
     if (step % setting_.energy_stride == 0 && !checks_.balances(now_)) fail(Cause::energy_blowup);
-    if (!cause_) observers_.observe(step, now_);
+    if (!cause_)
+      observers_.observe(step,
+                         [this](int, std::size_t, const Channel& c) { return now_.sample(c); });
   }
 
   void count_step() {

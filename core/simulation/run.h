@@ -12,6 +12,7 @@
 #include "core/simulation/run_checks.h"
 #include "core/simulation/run_state.h"
 #include "core/simulation/step_watch.h"
+#include "core/simulation/written_lanes.h"
 
 namespace linkstudy {
 
@@ -35,38 +36,44 @@ class Run {
         rk_(static_cast<std::size_t>(size_)),
         now_(m_, p_, w_),
         checks_(m_, p_),
-        watch_(m_, p_, cases, count, setting.count) {
+        watch_(m_, p_, cases, count, setting.count),
+        written_(setting.code) {
     if constexpr (!FixedStructure<M>) {
       y_.resize(static_cast<std::size_t>(size_));
       correction_.resize(static_cast<std::size_t>(m.nv));
       contact_steps_.resize(m.contacts.size());
     }
     for (int i = 0; i < lanes; ++i) reset(i);
+    if (setting.code) written_.start(setting.h, setting.drift_limit, p_);
   }
 
   void run() {
     const FlushDenormals flush;
     for (step_ = 0;; ++step_) {
       const double t = time();
+      if constexpr (!FixedStructure<M>) {
+        if (is_quiet() && step_by_code(t)) continue;
+      }
       if (step_ == 0 && contact_count(m_) > 0) {
         differentiate_kept(t);
         begin_contact_memory(m_, w_);
       }
       differentiate_kept(t);
-      now_.move_to(t, y_.data());
+      now_.move_to(Real(t), y_.data());
       if (step_ == 0) checks_.start_ledger(now_);
       check_state();
       if (step_ % setting_.energy_stride == 0) check_energy();
       if (active_ == 0) return;
       watch_.see(step_, t, y_.data(), w_, active_);
-      observers_.observe(step_, now_);
+      observers_.observe(
+          step_, [this](int, std::size_t, const Channel& channel) { return now_.sample(channel); });
       if (step_ == setting_.count) break;
       if (step_ % kStepsBetweenPolls == 0 && interrupted(t)) return;
       if (contact_count(m_) > 0) {
         update_contact_memory(m_, w_, contact_steps_.data(), bristles(), contact_log_);
       }
-      rk_.advance(t, setting_.h, y_.data(),
-                  [this](double s, const Real* y, Real* slope) { differentiate(s, y, slope); });
+      rk_.advance(Real(t), Real(setting_.h), y_.data(),
+                  [this](Real s, const Real* y, Real* slope) { differentiate(s, y, slope); });
       finish_step();
       if (active_ != kAllLanes<Real>) reset_idle_lanes();
     }
@@ -76,7 +83,7 @@ class Run {
  private:
   double time() const { return setting_.t0 + static_cast<double>(step_) * setting_.h; }
 
-  void evaluate_into(Workspace<Real, M>& w, double t, const Real* y, Real* slope) {
+  void evaluate_into(Workspace<Real, M>& w, Real t, const Real* y, Real* slope) {
     evaluate_state(m_, p_, t, y, w);
     write_slopes(m_, y, w, slope);
     redundant_ |= w.redundant;
@@ -84,11 +91,11 @@ class Run {
 
   // Leaves everything in the workspace for observers.
   [[gnu::noinline, gnu::flatten]] void differentiate_kept(double t) {
-    evaluate_into(w_, t, y_.data(), rk_.first_slope());
+    evaluate_into(w_, Real(t), y_.data(), rk_.first_slope());
   }
 
   // A workspace of its own lives in registers as far as they go where the structure is fixed.
-  [[gnu::noinline, gnu::flatten]] void differentiate(double t, const Real* q, Real* slope) {
+  [[gnu::noinline, gnu::flatten]] void differentiate(Real t, const Real* q, Real* slope) {
     if constexpr (FixedStructure<M>) {
       Workspace<Real, M> w = make_workspace<Real>(m_);
       w.memory = w_.memory;
@@ -103,9 +110,39 @@ class Run {
     redundant_ |= w_.redundant;
   }
 
+  // Nothing happens in a step but the step itself, as far as can be said beforehand.
+  bool is_quiet() const {
+    return written_.is_there() && active_ != 0 && step_ > 0 && step_ < setting_.count &&
+           step_ % setting_.energy_stride != 0 && !watch_.looks_at(step_) &&
+           !written_.leaves_out(step_);
+  }
+
+  // False, and nothing has changed, where some lane needs the general step.
+  [[gnu::noinline]] bool step_by_code(double t) {
+    written_.read(t, now_.initial_energy(), [this](auto&& f) { for_state(f); });
+    if (!written_.run(active_)) return false;
+    if (bristle_count(m_) > 0 && (lane_bits(watch_.bristles_hold(bristles())) & active_) != active_)
+      return false;
+    written_.write_kept(w_);
+    checks_.see_rank(Real(1.0) > Real(0.0), Real(static_cast<double>(cut_row_count(m_))));
+    watch_.see(step_, t, y_.data(), w_, active_);
+    observers_.observe(step_, [this](int observer, std::size_t i, const Channel&) {
+      return written_.observed(observer, i);
+    });
+    if (step_ % kStepsBetweenPolls == 0 && interrupted(t)) return true;
+    written_.write_next([this](auto&& f) { for_state(f); });
+    if (active_ != kAllLanes<Real>) reset_idle_lanes();
+    return true;
+  }
+
+  template <class F>
+  void for_state(F&& f) {
+    for_state_numbers<Real>(y_, w_.memory, contact_steps_, contact_log_, checks_.drift_max(), f);
+  }
+
   void check_state() {
     const auto moving = checks_.moves(m_, y_.data(), w_);
-    const auto closed = checks_.is_closed(m_, w_, setting_.drift_limit);
+    const auto closed = checks_.is_closed(m_, w_, Real(setting_.drift_limit));
     checks_.see_rank(moving, w_.kept_rows);
     if constexpr (FixedStructure<M>) abandon_lanes(active_ & redundant_);
     end_lanes(active_ & ~lane_bits(moving), Cause::diverged);
@@ -194,6 +231,7 @@ class Run {
   Instant<Real, M> now_;
   RunChecks<Real> checks_;
   StepWatch<Real, M> watch_;
+  WrittenLanes<Real> written_;
 };
 
 }  // namespace linkstudy

@@ -43,14 +43,17 @@ class RunChecks {
 
   // Of the gaps in the cut rows of w.
   template <class M>
-  Mask is_closed(const M& m, const Workspace<Real, M>& w, double limit) {
+  Mask is_closed(const M& m, const Workspace<Real, M>& w, Real limit) {
     Real square(0.0);
     for_range(Index<0>(), cut_row_count(m),
               [&](auto r) { square = madd(at(w.cut_rows, r).d, at(w.cut_rows, r).d, square); });
     const Real drift = sqrt(square);
     drift_max_ = select(drift > drift_max_, drift, drift_max_);
-    return drift <= Real(limit);
+    return drift <= limit;
   }
+
+  // The largest gap seen so far.
+  Real& drift_max() { return drift_max_; }
 
   // Independent cut rows at a state, in the lanes where they count.
   void see_rank(const Mask& counts, Real rank) {

@@ -19,7 +19,7 @@ inline int state_size(const M& m) {
 
 // The equations of motion at (t, y).
 template <class M, class Real>
-inline void evaluate_state(const M& m, const Parameters<Real>& p, double t, const Real* y,
+inline void evaluate_state(const M& m, const Parameters<Real>& p, Real t, const Real* y,
                            Workspace<Real, M>& w) {
   const Real* v = y + m.nq;
   for_range(Index<0>(), bristle_count(m), [&](auto i) { at(w.z, i) = v[m.nv + i]; });
@@ -46,7 +46,7 @@ inline void settle_state(const M& m, const Parameters<Real>& p, Real* y, Real* c
                          Workspace<Real, M>& w) {
   if (!m.ball_q.empty()) normalize_quaternions(m, y);
   if (!m.projects) return;
-  update_factored_mass_matrix(m, p, 0.0, y, y + m.nq, w);
+  update_factored_mass_matrix(m, p, Real(0.0), y, y + m.nq, w);
   project(m, p, y, y + m.nq, correction, w);
 }
 

@@ -1,6 +1,7 @@
 #include "core/simulation/simulate.h"
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -9,6 +10,7 @@
 #include "core/simulation/kernels.h"
 #include "core/simulation/located_run.h"
 #include "core/simulation/looks.h"
+#include "core/simulation/written_steps.h"
 
 namespace linkstudy {
 namespace {
@@ -84,8 +86,12 @@ class Packed {
     for (std::size_t i = 0; i < cases.size(); ++i) add(i);
   }
 
-  void run(const SimulationOptions& options, Watch& watch, const Kernel& kernel) {
-    const KernelRun setting = setting_of(options, watch);
+  std::span<const LaneCase> lanes() const { return lanes_; }
+
+  void run(const SimulationOptions& options, Watch& watch, const Kernel& kernel,
+           const StepCode* code = nullptr) {
+    KernelRun setting = setting_of(options, watch);
+    setting.code = code;
     kernel.run(m_, setting, lanes_.data(), static_cast<int>(lanes_.size()));
     for (std::size_t i = 0; i < cases_.size(); ++i) {
       const long steps = ends_[i].steps;
@@ -200,6 +206,64 @@ class Packed {
   std::vector<LaneCase> lanes_;
 };
 
+// Code for the steps of a pack, if there is any, with frames of its own.
+class CodeForPack {
+ public:
+  CodeForPack(const Mechanism& m, std::span<const LaneCase> cases, const SimulationOptions& options,
+              const StepLoopChoice& choice, int lanes) {
+    if (choice.general) return;
+    list_observed(m, *cases[0].observers);
+    const long steps = make_step_grid(options).count;
+    written_ = written_step(m, cases, observed_, steps, choice.level);
+    if (written_) fill_frames((lanes + kFrameLanes - 1) / kFrameLanes);
+  }
+
+  const StepCode* get() const { return written_ ? &code_ : nullptr; }
+
+ private:
+  struct alignas(kFrameLanes * sizeof(double)) Slot {
+    double numbers[kFrameLanes] = {};
+  };
+  static constexpr long kOften = 8;  // steps: what is looked at more rarely takes a general step
+
+  void list_observed(const Mechanism& m, const Observers& form) {
+    const auto add = [&](const Sampling& sampling, std::span<const Channel> channels) {
+      const bool is_written = sampling.stride < kOften &&
+                              std::all_of(channels.begin(), channels.end(),
+                                          [&m](const Channel& c) { return is_writable(m, c); });
+      first_.push_back(is_written ? static_cast<int>(observed_.size()) : -1);
+      if (is_written) {
+        observed_.insert(observed_.end(), channels.begin(), channels.end());
+      } else {
+        beyond_.push_back(sampling);
+      }
+    };
+    for (const auto& s : form.comparisons) add(s.sampling, s.channels);
+    for (const auto& s : form.reductions) add(s.sampling, {&s.channel, 1});
+    for (const auto& s : form.series) add(s.sampling, s.channels);
+  }
+
+  void fill_frames(int frames) {
+    frames_.resize(static_cast<std::size_t>(frames * written_->frame_slots));
+    for (int i = 0; i < frames; ++i) {
+      for (const auto& [slot, bits] : written_->constants) {
+        Slot& place = frames_[static_cast<std::size_t>(i * written_->frame_slots + slot)];
+        for (double& number : place.numbers) number = std::bit_cast<double>(bits);
+      }
+    }
+    code_ = {written_->code->function(),          written_->slots, frames_.front().numbers,
+             written_->frame_slots * kFrameLanes, first_.data(),   beyond_.data(),
+             static_cast<int>(beyond_.size())};
+  }
+
+  std::vector<Channel> observed_;
+  std::vector<int> first_;  // by observer
+  std::vector<Sampling> beyond_;
+  std::shared_ptr<const WrittenStep> written_;
+  std::vector<Slot> frames_;
+  StepCode code_;
+};
+
 // A lone case takes one lane: the same bits, and faster than a pack of copies.
 void run_pack(const Mechanism& m, const SimulationOptions& options, std::span<BatchCase> cases,
               const RunLimits& limits, const StepLoopChoice& choice) {
@@ -207,7 +271,8 @@ void run_pack(const Mechanism& m, const SimulationOptions& options, std::span<Ba
   const int lanes = cases.size() == 1 ? 1 : choice.level.lanes;
   Watch watch{limits};
   Packed packed(m, cases);
-  packed.run(options, watch, find_kernel(m, isa, lanes, choice.general));
+  const CodeForPack code(m, packed.lanes(), options, choice, lanes);
+  packed.run(options, watch, find_kernel(m, isa, lanes, choice.general || code.get()), code.get());
   std::vector<BatchCase> abandoned;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     if (packed.abandoned(i)) abandoned.push_back(cases[i]);

@@ -34,6 +34,9 @@ class StepWatch {
     bound_bristles();
   }
 
+  // One of the even looks.
+  bool looks_at(long step) const { return step == next_; }
+
   // z: bristles of an accepted state.
   Mask bristles_hold(const Real* z) const { return bent(z) <= Real(kFarthest); }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/base/isa.h"
+#include "core/simulation/written_steps.h"
 
 namespace linkstudy {
 
@@ -17,6 +18,18 @@ std::string git_revision() {
 std::string simd_text() {
   const SimdLevel level = simd_level();
   return fmt::format("{}, {} lane{}", name_of(level.isa), level.lanes, level.lanes == 1 ? "" : "s");
+}
+
+std::string kernels_text() {
+  const std::string why = why_not_written(simd_level());
+  return why.empty() ? "written for each linkage (AVX2)" : "general (" + why + ")";
+}
+
+std::string written_text() {
+  const WrittenReport report = written_report();
+  if (report.kernels == 0) return "";
+  return fmt::format("{} step kernel{} written in {:.1f} ms", report.kernels,
+                     report.kernels == 1 ? "" : "s", 1e3 * report.seconds);
 }
 
 std::string build_text() {

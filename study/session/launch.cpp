@@ -157,9 +157,9 @@ class Launch {
 
   void print_banner(const StudyIdentity& identity) {
     const std::string revision = git_revision().empty() ? "" : " " + git_revision();
-    fmt::print(stderr, "linkstudy {}{}, {} rank{} on {} node{}, SIMD {}, input {}\n",
+    fmt::print(stderr, "linkstudy {}{}, {} rank{} on {} node{}, SIMD {}, kernels {}, input {}\n",
                program_version(), revision, transport_.size(), transport_.size() == 1 ? "" : "s",
-               transport_.nodes(), transport_.nodes() == 1 ? "" : "s", simd_text(),
+               transport_.nodes(), transport_.nodes() == 1 ? "" : "s", simd_text(), kernels_text(),
                identity.input_sha256.substr(0, 12));
     const std::string dropped = dropped_text(record_->journal().contents(), record_->directory());
     if (!dropped.empty()) {
@@ -254,6 +254,7 @@ class Launch {
       log_->error("{}", failure.text);
       code = failure.code;
     }
+    if (!written_text().empty()) log_->info("{} on rank 0", written_text());
     log_->info("exit code {}", code);
     if ((session_ && session_->is_abandoned()) || !pool.close()) pool.leave_now(code);
     return code;

@@ -121,11 +121,28 @@ TEST_F(Lanes, Are_in_the_banner_the_version_and_the_provenance) {
   EXPECT_THAT(again.err, HasSubstr("SIMD baseline, 1 lane,"));
   EXPECT_THAT(run("--version", "LINKSTUDY_SIMD=baseline").out,
               HasSubstr("SIMD    baseline, 2 lanes\n"));
+  EXPECT_THAT(ended.err, HasSubstr("kernels general (no fused multiply-add), "));
   const StudyResults results = read_results(path("out/results.h5"));
   ASSERT_EQ(results.provenance.size(), 2u);
   EXPECT_EQ(results.provenance[0].simd, "baseline");
   EXPECT_EQ(results.provenance[0].lanes, 2u);
   EXPECT_EQ(results.provenance[1].lanes, 1u);
+}
+
+TEST_F(Lanes, Of_written_steps_give_the_bits_of_the_general_loop_and_say_so) {
+  if (fused_sets().empty()) GTEST_SKIP() << "steps are written for AVX2";
+  const Ended general = run("study study.toml -o general", "LINKSTUDY_KERNELS=general");
+  const Ended written = run("study study.toml -o written", "LINKSTUDY_KERNELS=written");
+  ASSERT_EQ(written.code, 0) << written.err;
+  EXPECT_EQ(written.out, general.out);
+  EXPECT_THAT(general.err, HasSubstr("kernels general (LINKSTUDY_KERNELS=general), "));
+  EXPECT_THAT(written.err, HasSubstr("kernels written for each linkage (AVX2), "));
+  EXPECT_THAT(run("--version").out, HasSubstr("kernels written for each linkage (AVX2)\n"));
+  EXPECT_THAT(read_text(path("written/linkstudy.log")), HasSubstr("written in "));
+  EXPECT_THAT(read_text(path("general/linkstudy.log")), Not(HasSubstr("written in ")));
+  const Ended wrong = run("study study.toml -o out", "LINKSTUDY_KERNELS=fast");
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_EQ(wrong.err, "linkstudy: error: LINKSTUDY_KERNELS=fast: must be written or general\n");
 }
 
 TEST_F(Lanes, That_the_machine_lacks_are_a_usage_error_of_every_verb_that_runs) {

@@ -1,8 +1,11 @@
 // Runs in lanes against runs alone: to the last bit, whatever the neighbours do.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <limits>
 
+#include "core/simulation/written_steps.h"
 #include "tests/mechanisms/bushing.h"
 #include "tests/mechanisms/journal_in_bearing.h"
 #include "tests/mechanisms/n_four_bar.h"
@@ -61,7 +64,8 @@ std::vector<Case> make_cases(const Linkage& linkage, int count, long steps) {
 void run_cases(std::vector<Case>& cases, const SimulationOptions& options, SimdLevel level) {
   std::vector<BatchCase> batch;
   for (Case& c : cases) batch.push_back({&c.model.parameters, &c.model.start, &c.observers, {}});
-  simulate_batch(cases.front().model.mechanism, options, batch, {}, {level, true});
+  simulate_batch(cases.front().model.mechanism, options, batch, {},
+                 {level, level.kernels != Kernels::written});
   for (std::size_t i = 0; i < cases.size(); ++i) cases[i].outcome = batch[i].outcome;
 }
 
@@ -164,7 +168,7 @@ SimulationOptions short_run(long steps) {
 TEST(Lanes, A_case_in_a_pack_has_the_bits_of_its_own_run) {
   constexpr long steps = 60;
   const std::vector<Linkage> all = linkages();
-  for (const SimdLevel& level : simd_levels()) {
+  for (const SimdLevel& level : step_loops()) {
     for (std::size_t n = 0; n < all.size(); ++n) {
       const int count = level.lanes + 2;  // a full pack and a part of one
       std::vector<Case> packed = make_cases(all[n], count, steps);
@@ -178,6 +182,58 @@ TEST(Lanes, A_case_in_a_pack_has_the_bits_of_its_own_run) {
       }
     }
   }
+}
+
+TEST(Lanes, Written_steps_of_fifty_random_linkages_have_the_bits_of_the_general_loop) {
+  if (!machine_has(InstructionSet::avx2)) GTEST_SKIP() << "no fused instructions here";
+  constexpr long steps = 300;
+  const std::array closures = {JointType::spherical, JointType::universal, JointType::prismatic,
+                               JointType::cylindrical, JointType::planar};
+  for (std::uint64_t seed = 10; seed < 60; ++seed) {
+    const JointType type = closures[seed % closures.size()];
+    const Linkage linkage = seed % 3 == 0   ? random_tree(seed)
+                            : seed % 3 == 1 ? random_closed_linkage(seed, type, ClosureModel::cut)
+                                            : random_closed_linkage(seed, type, ClosureModel::sde);
+    std::vector<Case> written = make_cases(linkage, 4, steps);
+    std::vector<Case> general = make_cases(linkage, 4, steps);
+    const int before = written_report().kernels;
+    run_cases(written, short_run(steps), {InstructionSet::avx2, 4, Kernels::written});
+    run_cases(general, short_run(steps), {InstructionSet::avx2, 4, Kernels::general});
+    EXPECT_EQ(written_report().kernels, before + 1) << seed;
+    for (std::size_t i = 0; i < written.size(); ++i) {
+      EXPECT_EQ(general[i].outcome.steps, steps);
+      EXPECT_TRUE(same_run(written[i], general[i])) << seed << " lane " << i;
+    }
+  }
+}
+
+// What was 0 or 1 in the first pack may be any number in the next.
+TEST(Lanes, Written_steps_hold_for_no_more_than_what_they_were_written_for) {
+  if (!machine_has(InstructionSet::avx2)) GTEST_SKIP() << "no fused instructions here";
+  constexpr long steps = 40;
+  const auto run_with = [&](double aside, double pull, Kernels kernels) {
+    std::vector<Case> cases = make_cases(rsrrp(), 4, steps);
+    for (Case& c : cases) {
+      c.model.parameters.gravity.z += aside;
+      c.model.parameters.gravity.x += pull;
+    }
+    run_cases(cases, short_run(steps), {InstructionSet::avx2, 4, kernels});
+    return cases;
+  };
+  int written = written_report().kernels;
+  const auto expect = [&](double aside, double pull, int more) {
+    const std::vector<Case> a = run_with(aside, pull, Kernels::written);
+    const std::vector<Case> b = run_with(aside, pull, Kernels::general);
+    for (std::size_t i = 0; i < a.size(); ++i) EXPECT_TRUE(same_run(a[i], b[i])) << aside << pull;
+    EXPECT_EQ(written_report().kernels, written + more) << aside << ' ' << pull;
+    written = written_report().kernels;
+  };
+  expect(0.0, 0.0, 1);
+  expect(0.0, 0.0, 0);
+  expect(1e-4, 0.0, 1);
+  expect(0.0, 0.0, 0);
+  expect(1e-4, 0.3, 1);  // fits all from now on
+  expect(0.0, 0.3, 0);
 }
 
 TEST(Lanes, Sets_with_fused_instructions_agree_on_every_bit_of_the_whole_rsrrp_run) {
@@ -212,7 +268,7 @@ TEST(Lanes, Baseline_agrees_with_the_fused_sets_to_rounding) {
 
 TEST(Lanes, Neither_order_nor_neighbours_change_a_bit) {
   constexpr long steps = 200;
-  for (const SimdLevel& level : simd_levels()) {
+  for (const SimdLevel& level : step_loops()) {
     for (const ClosureModel model : {ClosureModel::sde, ClosureModel::cut}) {
       const Linkage linkage = rsrrp_test_vector(model);
       std::vector<Case> there = make_cases(linkage, level.lanes, steps);
@@ -243,9 +299,9 @@ TEST(Lanes, A_lane_that_diverges_ends_as_it_would_alone_and_leaves_the_others) {
   Linkage linkage = rsrrp();
   linkage.closures[0].model = ClosureModel::sde;
   constexpr long steps = 3000;
-  for (const SimdLevel& level : simd_levels()) {
+  for (const SimdLevel& level : step_loops()) {
     const auto make = [&] {
-      std::vector<Case> cases = make_cases(linkage, level.lanes, steps);
+      std::vector<Case> cases = make_cases(linkage, std::max(level.lanes, 2), steps);
       for (auto& s : cases[1].model.parameters.springs) s.stiffness = 1e9;  // far past the limit
       cases[1].model.start.q[0] += 1e-6;
       return cases;
@@ -278,7 +334,7 @@ TEST(Lanes, A_decaying_motion_ends_among_normal_numbers) {
   const double inertia = EngineProbe(linkage).mass_matrix()(0, 0);
   const double rate = 1000.0 / inertia;  // 1/s
   const SimulationOptions options = steps_of(0.5 / rate, 3000.0 / rate, 100.0 / rate);
-  for (const SimdLevel& level : simd_levels()) {
+  for (const SimdLevel& level : step_loops()) {
     std::vector<Case> cases = make_cases(linkage, level.lanes, 6000);
     run_cases(cases, options, level);
     for (const Case& c : cases) {

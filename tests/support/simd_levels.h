@@ -18,4 +18,20 @@ inline std::vector<SimdLevel> simd_levels() {
   return found;
 }
 
+// The general step loop of every instruction set, and steps written at run time where there are
+// such.
+inline std::vector<SimdLevel> step_loops() {
+  std::vector<SimdLevel> found;
+  for (SimdLevel level : simd_levels()) {
+    level.kernels = Kernels::general;
+    found.push_back(level);
+    if (level.isa == InstructionSet::baseline) continue;
+    level.kernels = Kernels::written;
+    found.push_back(level);
+    level.lanes = 1;
+    found.push_back(level);
+  }
+  return found;
+}
+
 }  // namespace linkstudy::testing

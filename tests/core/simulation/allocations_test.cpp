@@ -62,22 +62,7 @@ Observers all_channels(const Model& model, long steps) {
   return observers;
 }
 
-long allocations_of(const Model& model, long steps) {
-  Observers observers = all_channels(model, steps);
-  const SimulationOptions options = steps_of(1e-4, 1e-4 * static_cast<double>(steps), 1e-3);
-  const long before = allocations;
-  const SimulationOutcome end =
-      simulate(model.mechanism, model.parameters, model.start, options, observers);
-  const long after = allocations;
-  EXPECT_EQ(end.cause, Cause::ok) << end.message;
-  EXPECT_EQ(end.steps, steps);
-  EXPECT_EQ(observers.series[0].rows(), static_cast<std::size_t>(steps) + 1);
-  return after - before;
-}
-
-// Of a full pack on the widest instruction set.
-long allocations_of_pack(const Model& model, long steps) {
-  const SimdLevel level = choose_simd_level(nullptr, nullptr);
+long allocations_of(const Model& model, long steps, const SimdLevel& level) {
   std::vector<Observers> observers(static_cast<std::size_t>(level.lanes),
                                    all_channels(model, steps));
   std::vector<BatchCase> cases;
@@ -86,8 +71,25 @@ long allocations_of_pack(const Model& model, long steps) {
   const long before = allocations;
   simulate_batch(model.mechanism, options, cases, {}, {level, false});
   const long after = allocations;
+  EXPECT_EQ(cases.back().outcome.cause, Cause::ok) << cases.back().outcome.message;
   EXPECT_EQ(cases.back().outcome.steps, steps);
+  EXPECT_EQ(observers[0].series[0].rows(), static_cast<std::size_t>(steps) + 1);
   return after - before;
+}
+
+// Alone and in a full pack of the widest instruction set, by the general loop and by steps that the
+// first run has written.
+void expect_no_more_with_ten_times_the_steps(const Model& model, const std::string& name) {
+  for (const char* lanes : {"1", ""}) {
+    for (const Kernels kernels : {Kernels::general, Kernels::written}) {
+      SimdLevel level = choose_simd_level(nullptr, lanes);
+      level.kernels = kernels;
+      allocations_of(model, 200, level);
+      const long few = allocations_of(model, 200, level);
+      EXPECT_GT(few, 0) << "setting up allocates";
+      EXPECT_EQ(allocations_of(model, 2000, level), few) << name << ' ' << name_of(kernels);
+    }
+  }
 }
 
 }  // namespace
@@ -106,12 +108,7 @@ TEST(Allocations, Ten_times_the_steps_allocate_no_more) {
   for (Linkage linkage : {rsrrp(), replaced, projected, four_bar()}) {
     linkage.points = {{"tip", linkage.links.back().name, Eigen::Vector3d::Ones()}};
     const Model model = compile(linkage);
-    const long few = allocations_of(model, 200);
-    EXPECT_GT(few, 0) << "setting up allocates";
-    EXPECT_EQ(allocations_of(model, 2000), few) << linkage.name;
-    const long few_packed = allocations_of_pack(model, 200);
-    EXPECT_GT(few_packed, 0) << "setting up allocates";
-    EXPECT_EQ(allocations_of_pack(model, 2000), few_packed) << linkage.name;
+    expect_no_more_with_ten_times_the_steps(model, linkage.name);
   }
 }
 
@@ -125,8 +122,7 @@ TEST(Allocations, Sharing_redundant_reactions_allocates_no_more_with_ten_times_t
   for (const Linkage& linkage : {four_bar(), rubbing}) {
     const Model model = prepare(linkage, options).model;
     EXPECT_FALSE(model.mechanism.loop_joints.empty());
-    EXPECT_EQ(allocations_of(model, 2000), allocations_of(model, 200));
-    EXPECT_EQ(allocations_of_pack(model, 2000), allocations_of_pack(model, 200));
+    expect_no_more_with_ten_times_the_steps(model, linkage.name);
   }
 }
 

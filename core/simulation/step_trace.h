@@ -1,0 +1,26 @@
+// The step loop's step, left as a graph by a run of it on tracing scalars (core/codegen/traced.h).
+#pragma once
+
+#include <vector>
+
+#include "core/codegen/graph.h"
+#include "core/model/mechanism.h"
+#include "core/simulation/channels.h"
+#include "core/simulation/step_slots.h"
+
+namespace linkstudy {
+
+// What is known of a parameter in every case: 0, 1 or -1, or nothing.
+enum class Known : std::int8_t { varies, zero, one, minus_one };
+
+struct StepTrace {
+  codegen::Graph graph;
+  StepSlots slots;
+};
+
+// `known`: by number of for_parameter_numbers; `sizes`: parameters of any case. The graph writes
+// the channels observed. Throws Untraceable.
+StepTrace trace_step(const Mechanism& m, const Parameters<double>& sizes,
+                     const std::vector<Known>& known, const std::vector<Channel>& observed);
+
+}  // namespace linkstudy

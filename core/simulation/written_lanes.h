@@ -1,0 +1,130 @@
+// The lanes of a run on the frames of a written step: what goes in and comes out.
+// A step that fails for a lane has changed nothing outside the frames: the general step loop takes
+// it from the same state. Code that fails again and again is left.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+
+#include "core/base/real.h"
+#include "core/simulation/kernel.h"
+
+namespace linkstudy {
+
+template <class Real>
+class WrittenLanes {
+ public:
+  static constexpr int lanes = RealTraits<Real>::lanes;
+  static constexpr int frames = (lanes + kFrameLanes - 1) / kFrameLanes;
+
+  explicit WrittenLanes(const StepCode* code) : code_(code) {}
+
+  bool is_there() const { return code_ != nullptr && !left_; }
+
+  // Observers look in this step at what the code does not write.
+  bool leaves_out(long step) const {
+    for (int i = 0; i < code_->beyond_count; ++i)
+      if (code_->beyond[i].hits(step)) return true;
+    return false;
+  }
+
+  // What stays the same during a run.
+  void start(double h, double drift_limit, const Parameters<Real>& p) {
+    put(StepSlots::h, Real(h));
+    put(StepSlots::drift_limit, Real(drift_limit));
+    int slot = StepSlots::parameters;
+    for_parameter_numbers<Real>(p, [&](const Real* x, std::size_t n) {
+      for (std::size_t k = 0; k < n; ++k) put(slot++, x[k]);
+    });
+  }
+
+  // for_state(f) calls f(numbers, how many), as for_state_numbers does.
+  template <class ForState>
+  void read(double t, Real initial_energy, ForState&& for_state) {
+    put(StepSlots::t, Real(t));
+    put(StepSlots::initial_energy, initial_energy);
+    int slot = code_->slots.state;
+    for_state([&](const Real* x, std::size_t n) {
+      for (std::size_t k = 0; k < n; ++k) put(slot++, x[k]);
+    });
+  }
+
+  // True if all is well for the lanes asked for, one bit each.
+  bool run(unsigned active) {
+    for (int i = 0; i < frames; ++i) code_->step(code_->frames + i * code_->frame_numbers);
+    ++tried_;
+    if ((fine() & active) == active) return true;
+    ++failed_;
+    left_ = tried_ >= kTrial && kMostFailures * failed_ > tried_;
+    return false;
+  }
+
+  template <class W>
+  void write_kept(W& w) const {
+    int slot = code_->slots.kept;
+    for_kept_numbers<Real>(w, [&](Real* x, std::size_t n) {
+      for (std::size_t k = 0; k < n; ++k) x[k] = get(slot++);
+    });
+  }
+
+  // Channel i of an observer.
+  Real observed(int observer, std::size_t i) const {
+    return get(code_->slots.observed + code_->first_observed[observer] + static_cast<int>(i));
+  }
+
+  template <class ForState>
+  void write_next(ForState&& for_state) const {
+    int slot = code_->slots.next;
+    for_state([&](Real* x, std::size_t n) {
+      for (std::size_t k = 0; k < n; ++k) x[k] = get(slot++);
+    });
+  }
+
+ private:
+  static constexpr long kTrial = 64;        // steps before code may be left
+  static constexpr long kMostFailures = 4;  // one in so many is too much
+
+  double* place(int frame, int slot) const {
+    return code_->frames + frame * code_->frame_numbers + slot * kFrameLanes;
+  }
+
+  void put(int slot, const Real& x) {
+    if constexpr (lanes % kFrameLanes == 0) {
+      for (int i = 0; i < frames; ++i) {
+        std::memcpy(place(i, slot), reinterpret_cast<const double*>(&x) + i * kFrameLanes,
+                    kFrameLanes * sizeof(double));
+      }
+    } else {
+      for (int k = 0; k < kFrameLanes; ++k) place(0, slot)[k] = lane(x, k < lanes ? k : lanes - 1);
+    }
+  }
+
+  Real get(int slot) const {
+    Real x;
+    if constexpr (lanes % kFrameLanes == 0) {
+      for (int i = 0; i < frames; ++i) {
+        std::memcpy(reinterpret_cast<double*>(&x) + i * kFrameLanes, place(i, slot),
+                    kFrameLanes * sizeof(double));
+      }
+    } else {
+      for (int k = 0; k < lanes; ++k) set_lane(x, k, place(0, slot)[k]);
+    }
+    return x;
+  }
+
+  unsigned fine() const {
+    unsigned bits = 0;
+    for (int k = 0; k < lanes; ++k) {
+      std::uint64_t mask = 0;
+      std::memcpy(&mask, place(k / kFrameLanes, code_->slots.fine) + k % kFrameLanes, sizeof mask);
+      bits |= static_cast<unsigned>(mask & 1u) << k;
+    }
+    return bits;
+  }
+
+  const StepCode* code_;
+  long tried_ = 0, failed_ = 0;
+  bool left_ = false;
+};
+
+}  // namespace linkstudy

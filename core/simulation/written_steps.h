@@ -1,0 +1,50 @@
+// Steps that the program writes for a structure when it meets it, and keeps for the rest of the
+// process. A parameter that is 0, 1 or -1 in all lanes is a constant of the code; a pack that does
+// not fit has another code written that fits both. No bit of a result depends on which code runs:
+// all give those of the general step loop of a fused instruction set.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/base/isa.h"
+#include "core/codegen/written_code.h"
+#include "core/simulation/kernel.h"
+#include "core/simulation/step_trace.h"
+
+namespace linkstudy {
+
+struct WrittenStep {
+  StepSlots slots;
+  std::vector<Channel> observed;
+  std::vector<Known> known;
+  std::vector<codegen::SlotValue> constants;
+  int frame_slots = 0;
+  int operations = 0;
+  double seconds = 0.0;  // it took to write
+  std::unique_ptr<codegen::WrittenCode> code;
+};
+
+// What has been written in this process.
+struct WrittenReport {
+  int kernels = 0;
+  double seconds = 0.0;
+};
+WrittenReport written_report();
+
+// Why this process runs the general step loop alone, or empty. Asks for executable memory once.
+std::string why_not_written(const SimdLevel& level);
+
+// The step for a pack that writes these channels, or null: its structure cannot be traced, this
+// machine has no AVX2 or refuses executable memory, or what is left to run is too little to gain by
+// it. May be called by several threads.
+std::shared_ptr<const WrittenStep> written_step(const Mechanism& m, std::span<const LaneCase> cases,
+                                                const std::vector<Channel>& observed, long steps,
+                                                const SimdLevel& level);
+
+// False of channels that are fitted lane by lane: reactions shared in loops.
+bool is_writable(const Mechanism& m, const Channel& channel);
+
+}  // namespace linkstudy

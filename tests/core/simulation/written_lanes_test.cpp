@@ -1,0 +1,87 @@
+// Lanes of any number on frames of four: what is put in comes out at its place.
+#include "core/simulation/written_lanes.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstring>
+#include <vector>
+
+#include "core/base/pack.h"
+
+namespace linkstudy::testing::written_lanes_test {
+namespace {
+
+// y' = y + t in every lane, past the three numbers of gravity; all is well where y is below 100.
+void step(double* frame) {
+  for (int k = 0; k < kFrameLanes; ++k) {
+    const double y = frame[7 * kFrameLanes + k];
+    frame[9 * kFrameLanes + k] = y + frame[k];
+    const std::uint64_t fine = y < 100.0 ? ~std::uint64_t{0} : 0;
+    std::memcpy(frame + 12 * kFrameLanes + k, &fine, sizeof fine);
+  }
+}
+
+template <class Real>
+class Frames {
+ public:
+  Frames() {
+    code_.step = step;
+    code_.slots.state = 7;
+    code_.slots.next = 9;
+    code_.slots.fine = 12;
+    code_.frames = numbers_.data();
+    code_.frame_numbers = 13 * kFrameLanes;
+  }
+
+  // Writes y' over y; true if all is well for the lanes asked for.
+  bool step_all(double t, Real& y, unsigned asked) {
+    const auto state = [&](auto&& f) { f(&y, std::size_t{1}); };
+    lanes_.read(t, Real(0.0), state);
+    if (!lanes_.run(asked)) return false;
+    lanes_.write_next(state);
+    return true;
+  }
+  bool is_there() const { return lanes_.is_there(); }
+
+ private:
+  std::vector<double> numbers_ = std::vector<double>(2 * 13 * kFrameLanes);
+  StepCode code_;
+  WrittenLanes<Real> lanes_{&code_};
+};
+
+template <class Real>
+void expect_own_lanes() {
+  constexpr int lanes = RealTraits<Real>::lanes;
+  Frames<Real> frames;
+  Real y(0.0);
+  for (int i = 0; i < lanes; ++i) set_lane(y, i, i == lanes - 1 ? 200.0 : 1.0 + i);
+  const unsigned all = (1u << lanes) - 1u, but_last = all >> 1;
+  EXPECT_FALSE(frames.step_all(0.5, y, all));
+  EXPECT_EQ(lane(y, lanes - 1), 200.0);  // nothing has changed
+  EXPECT_TRUE(frames.step_all(0.5, y, but_last));
+  for (int i = 0; i < lanes - 1; ++i) EXPECT_EQ(lane(y, i), 1.5 + i);
+}
+
+}  // namespace
+
+TEST(WrittenLanes, Are_one_four_or_eight) {
+  expect_own_lanes<double>();
+  expect_own_lanes<Pack<4, Baseline>>();
+  expect_own_lanes<Pack<8, Baseline>>();
+}
+
+TEST(WrittenLanes, Leave_code_that_fails_more_often_than_one_time_in_four) {
+  Frames<double> often, rarely;
+  for (int i = 0; i < 100; ++i) {
+    double y = i % 3 == 0 ? 200.0 : 0.0, z = i % 5 == 0 ? 200.0 : 0.0;
+    often.step_all(0.0, y, 1u);
+    rarely.step_all(0.0, z, 1u);
+    EXPECT_EQ(often.is_there(), i < 63) << i;
+    EXPECT_TRUE(rarely.is_there()) << i;
+    if (!often.is_there()) break;
+  }
+  EXPECT_FALSE(often.is_there());
+}
+
+}  // namespace linkstudy::testing::written_lanes_test
