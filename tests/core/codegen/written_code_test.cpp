@@ -134,8 +134,6 @@ void draw_graph(Graph& graph, std::mt19937_64& random, int inputs, int operation
   for (int i = 0; i < outputs; ++i) graph.write(any_of(numbers), inputs + i);
 }
 
-}  // namespace
-
 TEST_F(WrittenCodeTest, Computes_what_random_graphs_say) {
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
     std::mt19937_64 random(seed);
@@ -348,4 +346,5 @@ TEST(Traced, Questions_about_lanes_become_requirements_and_numbers_of_lanes_are_
   EXPECT_THROW(set_lane(y, 0, 1.0), Untraceable);
 }
 
+}  // namespace
 }  // namespace linkstudy::testing::written_code_test
