@@ -35,7 +35,9 @@ function shown(value) {
   if (value === null || value === undefined) return "–";
   if (typeof value !== "number") return String(value);
   if (Number.isInteger(value) && Math.abs(value) < 1e6) return String(value);
-  return String(Number(value.toPrecision(6))).replace("e+", "e");
+  const rounded = Number(value.toPrecision(6));
+  const isSmall = rounded !== 0 && Math.abs(rounded) < 1e-3;
+  return (isSmall ? rounded.toExponential() : String(rounded)).replace("e+", "e");
 }
 
 function withUnit(label, unit) {
