@@ -176,7 +176,8 @@ class Allocator {
     return best;
   }
 
-  int take_register(Value v) {
+  // One that holds nothing: what is used again has a slot afterwards.
+  int vacate_register() {
     int use_there = 0;
     const int r = farthest(use_there);
     const Value before = held_[static_cast<std::size_t>(r)];
@@ -184,8 +185,13 @@ class Allocator {
       if (next_use(before) != kNever) give_slot(before);
       place(before).reg = -1;
     }
-    held_[static_cast<std::size_t>(r)] = v;
-    place(v).reg = r;
+    held_[static_cast<std::size_t>(r)] = -1;
+    return r;
+  }
+
+  int take_register(Value v) {
+    const int r = vacate_register();
+    hold(v, r);
     return r;
   }
 
@@ -300,14 +306,7 @@ class Allocator {
       held_[static_cast<std::size_t>(r)] = -1;
       return r;
     }
-    int use_there = 0;
-    const int r = farthest(use_there);
-    const Value before = held_[static_cast<std::size_t>(r)];
-    if (before >= 0) {
-      if (next_use(before) != kNever) give_slot(before);
-      place(before).reg = -1;
-    }
-    held_[static_cast<std::size_t>(r)] = -1;
+    const int r = vacate_register();
     Instruction fetch{p.reg >= 0 ? Action::copy : Action::load};
     fetch.to = r;
     fetch.first = p.reg >= 0 ? Operand{p.reg, -1} : Operand{-1, p.slot};

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "study/cli/input.h"
 #include "study/cli/verb_table.h"
 #include "study/page/paper_figure.h"
 #include "study/report/choose_table.h"
@@ -9,7 +10,6 @@
 #include "study/report/write_table.h"
 #include "study/session/exit_code.h"
 #include "study/store/file.h"
-#include "study/store/results_file.h"
 
 namespace linkstudy {
 namespace {
@@ -42,8 +42,7 @@ int export_figure(const CommandLine& line, const StudyResults& results) {
 }  // namespace
 
 int run_export(const CommandLine& line) {
-  const StudyResults results = read_stored(line.inputs.front());
-  if (!results.dropped.empty()) print_err(fmt::format("linkstudy: warning: {}\n", results.dropped));
+  const StudyResults results = read_results_input(line);
   if (line.figure) return export_figure(line, results);
   require(!find_word<PaperFormat>(form_of(line)),
           fmt::format("--format {} is of figures: name one with --figure", form_of(line)));

@@ -11,6 +11,7 @@
 #include "study/report/choose_table.h"
 #include "study/report/console.h"
 #include "study/session/single_run.h"
+#include "study/store/results_file.h"
 
 namespace linkstudy {
 namespace {
@@ -59,9 +60,12 @@ std::vector<std::string> groups_of(const Series& series) {
   return groups;
 }
 
-}  // namespace
+struct ReadModel {
+  ModelDocument document;  // with --set written into it
+  ModelInput input;
+};
 
-ModelInput read_model_input(const CommandLine& line) {
+ReadModel read_model(const CommandLine& line) {
   Diagnostics diagnostics;
   const std::vector<Override> set = parse_sets(line.set, diagnostics);
   const auto document = ModelDocument::load(line.inputs.front(), diagnostics);
@@ -69,7 +73,23 @@ ModelInput read_model_input(const CommandLine& line) {
   std::optional<ModelInput> model = read_model_file(*document, set, line.verb, diagnostics);
   throw_if_any(diagnostics);
   print_remarks(diagnostics.sorted_remarks());
-  return std::move(*model);
+  return {*document->edited(set, diagnostics), std::move(*model)};
+}
+
+}  // namespace
+
+ModelInput read_model_input(const CommandLine& line) {
+  return read_model(line).input;
+}
+
+StudyResults read_results_input(const CommandLine& line) {
+  StudyResults results = read_stored(line.inputs.front());
+  warn_of_lost(results.dropped);
+  return results;
+}
+
+void warn_of_lost(const std::string& dropped) {
+  if (!dropped.empty()) print_err(fmt::format("linkstudy: warning: {}\n", dropped));
 }
 
 StudyInput read_study_input(const CommandLine& line) {
@@ -85,8 +105,8 @@ StudyInput read_study_input(const CommandLine& line) {
 }
 
 StudyInput read_model_as_study(const CommandLine& line) {
-  const ModelInput model = read_model_input(line);
-  const Series series = choose_series(model, line.signals);
+  const ReadModel model = read_model(line);
+  const Series series = choose_series(model.input, line.signals);
   Tree signals = Tree::make_array();
   for (const std::string& one : line.signals ? split_list(*line.signals) : groups_of(series)) {
     signals.items.push_back(Tree::make_text(one));
@@ -96,14 +116,13 @@ StudyInput read_model_as_study(const CommandLine& line) {
   Tree study = Tree::make_table();
   study.set("format", Tree::make_integer(1));
   study.set("kind", Tree::make_text(std::string(name_of(FileKind::study))));
-  study.set("name", Tree::make_text(model.name));
+  study.set("name", Tree::make_text(model.input.name));
   study.set("model", Tree::make_text(line.inputs.front()));
   study.set("trace", Tree::make_array({std::move(trace)}));
-  Diagnostics diagnostics;  // the model was read before
-  const auto document = ModelDocument::load(line.inputs.front(), diagnostics)
-                            ->edited(parse_sets(line.set, diagnostics), diagnostics);
-  std::optional<StudyInput> input = read_study(
-      {write_toml(study), write_toml(document->tree()), "", {}}, line.inputs.front(), diagnostics);
+  Diagnostics diagnostics;
+  std::optional<StudyInput> input =
+      read_study({write_toml(study), write_toml(model.document.tree()), "", {}},
+                 line.inputs.front(), diagnostics);
   throw_if_any(diagnostics);
   apply_run_options(line, input->run);
   return std::move(*input);

@@ -4,11 +4,17 @@
 
 #include "study/cli/command_line.h"
 #include "study/config/study_input.h"
+#include "study/store/results.h"
 
 namespace linkstudy {
 
 // A model with the --set values in it; remarks are printed.
 ModelInput read_model_input(const CommandLine& line);
+
+// Stored results, of a directory or a file; what they have lost is said.
+StudyResults read_results_input(const CommandLine& line);
+// What a journal has lost, where that is anything.
+void warn_of_lost(const std::string& dropped);
 
 // A study or tune file with --set, --seed, --batch in it; --timeout, --max-failures and
 // --on-failure replace what its [run] says.

@@ -2,18 +2,16 @@
 
 #include <filesystem>
 
+#include "study/cli/input.h"
 #include "study/cli/verb_table.h"
 #include "study/page/page.h"
 #include "study/report/console.h"
 #include "study/session/exit_code.h"
 #include "study/store/directory.h"
 #include "study/store/file.h"
-#include "study/store/results_file.h"
 
 namespace linkstudy {
 namespace {
-
-constexpr double kLongestRun = 120.0;  // s
 
 // -o, or in the directory, or beside the file.
 std::filesystem::path page_path(const CommandLine& line) {
@@ -26,10 +24,9 @@ std::filesystem::path page_path(const CommandLine& line) {
 }  // namespace
 
 int run_report(const CommandLine& line) {
-  const StudyResults results = read_stored(line.inputs.front());
-  if (!results.dropped.empty()) print_err(fmt::format("linkstudy: warning: {}\n", results.dropped));
+  const StudyResults results = read_results_input(line);
   const MovingRuns again =
-      run_again(results, line.evaluation, line.timeout_s.value_or(kLongestRun));
+      run_again(results, line.evaluation, line.timeout_s.value_or(kLongestAgain));
   for (const std::string& note : again.notes) print_err(fmt::format("linkstudy: note: {}\n", note));
   const std::filesystem::path path = page_path(line);
   write_file_atomically(path, page_of(results, again));

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <thread>
 
+#include "study/cli/input.h"
 #include "study/cli/verb_table.h"
 #include "study/page/moving_run.h"
 #include "study/report/console.h"
@@ -18,7 +19,7 @@ constexpr auto kPause = std::chrono::seconds(2);
 
 StudyStatus read_and_warn(const CommandLine& line) {
   const StudyStatus status = read_status(line.inputs.front());
-  if (!status.dropped.empty()) print_err(fmt::format("linkstudy: warning: {}\n", status.dropped));
+  warn_of_lost(status.dropped);
   return status;
 }
 

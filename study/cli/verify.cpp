@@ -3,11 +3,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include "study/cli/input.h"
 #include "study/cli/verb_table.h"
 #include "study/report/console.h"
 #include "study/session/exit_code.h"
 #include "study/session/verification.h"
-#include "study/store/results_file.h"
 
 namespace linkstudy {
 namespace {
@@ -58,8 +58,7 @@ std::string json_of(const Verification& found) {
 }  // namespace
 
 int run_verify(const CommandLine& line) {
-  const StudyResults results = read_stored(line.inputs.front());
-  if (!results.dropped.empty()) print_err(fmt::format("linkstudy: warning: {}\n", results.dropped));
+  const StudyResults results = read_results_input(line);
   VerifyOptions options;
   options.all = line.all;
   if (line.count) options.count = static_cast<std::size_t>(*line.count);

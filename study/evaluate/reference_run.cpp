@@ -33,18 +33,8 @@ std::vector<Channel> coordinate_channels(const std::vector<Channel>& all) {
 
 std::vector<State<double>> to_states(const Series& series, const Mechanism& mechanism) {
   std::vector<State<double>> states;
-  const std::size_t n = series.channels.size();
   for (std::size_t row = 1; row < series.rows(); ++row) {
-    State<double> state = make_state<double>(mechanism);
-    for (std::size_t c = 0; c < n; ++c) {
-      const Channel& channel = series.channels[c];
-      const double value = series.values[row * n + c];
-      const auto index = static_cast<std::size_t>(channel.index);
-      if (channel.quantity == Quantity::time) state.t = value;
-      if (channel.quantity == Quantity::q) state.q[index] = value;
-      if (channel.quantity == Quantity::v) state.v[index] = value;
-    }
-    states.push_back(std::move(state));
+    states.push_back(state_at(series, mechanism, row));
   }
   return states;
 }

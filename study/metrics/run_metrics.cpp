@@ -201,4 +201,18 @@ std::vector<Trace> to_traces(const Series& series) {
   return traces;
 }
 
+State<double> state_at(const Series& series, const Mechanism& mechanism, std::size_t row) {
+  State<double> state = make_state<double>(mechanism);
+  const std::size_t n = series.channels.size();
+  for (std::size_t c = 0; c < n; ++c) {
+    const Channel& channel = series.channels[c];
+    const double value = series.values[row * n + c];
+    const auto index = static_cast<std::size_t>(channel.index);
+    if (channel.quantity == Quantity::time) state.t = value;
+    if (channel.quantity == Quantity::q) state.q[index] = value;
+    if (channel.quantity == Quantity::v) state.v[index] = value;
+  }
+  return state;
+}
+
 }  // namespace linkstudy

@@ -85,6 +85,10 @@ Series make_histories(const std::vector<Channel>& channels, const StepGrid& grid
 // A series as histories; `channels` start with time.
 std::vector<Trace> to_traces(const Series& series);
 
+// The state at a row, of the times, positions and velocities that the series has; others are those
+// of make_state.
+State<double> state_at(const Series& series, const Mechanism& mechanism, std::size_t row);
+
 // The channel "time".
 Channel time_channel();
 

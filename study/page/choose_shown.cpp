@@ -7,8 +7,8 @@
 
 #include "study/metrics/response_list.h"
 #include "study/page/moving_run.h"
-#include "study/page/stored_answer.h"
 #include "study/record/digest.h"
+#include "study/session/stored_answer.h"
 
 namespace linkstudy {
 namespace {
@@ -58,13 +58,6 @@ double largest_error(const Evaluation& evaluation, const std::vector<std::size_t
 }
 
 }  // namespace
-
-nlohmann::json stored_answer(const StudyResults& results) {
-  if (results.answers.empty()) return nullptr;
-  const Attribute* text = find_attribute(results.answers.front().tables, "answer");
-  if (text == nullptr) return nullptr;
-  return nlohmann::json::parse(std::get<std::string>(text->value), nullptr, false);
-}
 
 std::optional<std::uint64_t> choose_shown(const StudyResults& results) {
   if (const Id found = id_of(stored_answer(results))) return found;

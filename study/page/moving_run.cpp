@@ -7,8 +7,8 @@
 
 #include "core/kinematics/link_poses.h"
 #include "study/config/input_error.h"
-#include "study/page/stored_answer.h"
 #include "study/record/digest.h"
+#include "study/session/stored_answer.h"
 #include "study/session/stored_evaluator.h"
 
 namespace linkstudy {
@@ -21,18 +21,6 @@ Series all_channels(const Mechanism& mechanism, const SimulationOptions& options
   Sampling sampling = sample_output(make_step_grid(options), options.output_interval);
   sampling.stride *= std::max(1L, (sampling.count() + kMostRows - 1) / kMostRows);
   return {list_channels(mechanism), sampling, {}};
-}
-
-State<double> state_at(const Series& series, const Mechanism& mechanism, std::size_t row) {
-  State<double> state = make_state<double>(mechanism);
-  const std::size_t n = series.channels.size();
-  for (std::size_t c = 0; c < n; ++c) {
-    const Channel& channel = series.channels[c];
-    const double value = series.values[row * n + c];
-    if (channel.quantity == Quantity::time) state.t = value;
-    if (channel.quantity == Quantity::q) state.q[static_cast<std::size_t>(channel.index)] = value;
-  }
-  return state;
 }
 
 void add_poses(MovingRun& run, const Model& model, const Series& series) {

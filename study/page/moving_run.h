@@ -13,6 +13,8 @@
 
 namespace linkstudy {
 
+inline constexpr double kLongestAgain = 120.0;  // s, of a run, unless told otherwise
+
 struct MovingRun {
   std::string title;                           // "evaluation 50", "reference"
   std::string load_case;                       // or empty

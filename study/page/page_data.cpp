@@ -8,12 +8,12 @@
 #include "study/config/file_kind.h"
 #include "study/metrics/response_list.h"
 #include "study/page/mechanism_json.h"
-#include "study/page/stored_answer.h"
 #include "study/page/thin.h"
 #include "study/record/base64.h"
 #include "study/record/digest.h"
-#include "study/record/json_number.h"
 #include "study/report/results_tables.h"
+#include "study/report/table_cells.h"
+#include "study/session/stored_answer.h"
 
 namespace linkstudy {
 namespace {
@@ -26,21 +26,7 @@ constexpr std::size_t kMostHistories = 200;
 
 Json cells_of(const Column& column) {
   Json cells = Json::array();
-  std::visit(
-      [&](const auto& values) {
-        using Cell = typename std::decay_t<decltype(values)>::value_type;
-        for (const auto& value : values) {
-          if constexpr (std::is_same_v<Cell, double>) {
-            cells.push_back(json_number(value));
-          } else if constexpr (std::is_same_v<Cell, std::uint8_t>) {
-            const bool has_word = value < column.words.size();
-            cells.push_back(has_word ? Json(column.words[value]) : Json(value));
-          } else {
-            cells.push_back(value);
-          }
-        }
-      },
-      column.values);
+  for (std::size_t row = 0; row < row_count(column); ++row) cells.push_back(json_cell(column, row));
   return cells;
 }
 
@@ -176,7 +162,7 @@ void add_histories(Json& page, const StudyResults& results, const MovingRuns& ag
   for (const Shown& one : shown) page["histories"].push_back(history_of(one, count));
 }
 
-std::string escaped(std::string text) {
+std::string escaped(std::string_view text) {
   std::string safe;
   safe.reserve(text.size());
   for (const char c : text) safe += c == '<' ? std::string("\\u003c") : std::string(1, c);

@@ -12,9 +12,9 @@
 #include "core/topology/nearest_name.h"
 #include "study/config/input_error.h"
 #include "study/metrics/response_list.h"
-#include "study/page/stored_answer.h"
 #include "study/record/digest.h"
 #include "study/report/results_tables.h"
+#include "study/session/stored_answer.h"
 
 #include <nlohmann/json.hpp>
 
@@ -24,15 +24,8 @@ namespace {
 using Numbers = std::vector<double>;
 using Figure = std::optional<PaperFigure>;
 
-constexpr double kReportTimeout = 120.0;  // s, of a run made again
-
 std::string with_unit(const std::string& label, const std::string& unit) {
   return unit.empty() || unit == "1" ? label : fmt::format("{} [{}]", label, unit);
-}
-
-const Table* find_answer(const StudyResults& results, AnswerKind kind, std::string_view name) {
-  const auto answer = std::ranges::find(results.answers, kind, &VerbAnswer::kind);
-  return answer == results.answers.end() ? nullptr : find_part(answer->tables, name);
 }
 
 const Numbers& numbers_of(const Table& table, std::string_view name) {
@@ -107,7 +100,7 @@ Figure error_figure(const StudyResults& results) {
       }
     }
     if (figure.series.empty()) return std::nullopt;
-    if (const Table* components = find_answer(results, AnswerKind::tuning, "components")) {
+    if (const Table* components = find_answer_table(results, AnswerKind::tuning, "components")) {
       const double tolerance = numbers_of(*components, "tolerance").front();
       figure.marks.push_back({fmt::format("tolerance {:.3g}", tolerance), tolerance, false});
     }
@@ -123,7 +116,7 @@ Figure error_figure(const StudyResults& results) {
 
 // What was matched, or the forces of closures: of the shown evaluation and its reference.
 Figure history_figure(const StudyResults& results) {
-  const MovingRuns again = run_again(results, std::nullopt, kReportTimeout);
+  const MovingRuns again = run_again(results, std::nullopt, kLongestAgain);
   if (again.runs.empty()) return std::nullopt;
   std::vector<std::string> channels;
   for (const StoredCase& one : split_responses(results.description.responses)) {
@@ -175,7 +168,7 @@ PaperFigure grouped(const Table& table, const std::vector<std::string>& keys, st
 }
 
 Figure convergence_figure(const StudyResults& results) {
-  const Table* table = find_answer(results, AnswerKind::convergence, "convergence");
+  const Table* table = find_answer_table(results, AnswerKind::convergence, "convergence");
   if (table == nullptr || row_count(*table) == 0) return std::nullopt;
   PaperFigure figure = grouped(*table, words_of(*table, "quantity"), "size", "difference", true);
   for (PaperSeries& series : figure.series)
@@ -189,7 +182,7 @@ Figure convergence_figure(const StudyResults& results) {
 }
 
 Figure residual_figure(const StudyResults& results) {
-  const Table* table = find_answer(results, AnswerKind::calibration, "residuals");
+  const Table* table = find_answer_table(results, AnswerKind::calibration, "residuals");
   if (table == nullptr || row_count(*table) == 0) return std::nullopt;
   std::vector<std::string> keys = words_of(*table, "experiment");
   for (std::size_t i = 0; i < keys.size(); ++i) keys[i] += ": " + words_of(*table, "channel")[i];

@@ -24,9 +24,7 @@ Table titled(Table table, const StudyResults& results) {
 }
 
 Made part_of(AnswerKind kind, const StudyResults& results, std::string_view name) {
-  const auto answer = std::ranges::find(results.answers, kind, &VerbAnswer::kind);
-  if (answer == results.answers.end()) return std::nullopt;
-  const Table* found = find_part(answer->tables, name);
+  const Table* found = find_answer_table(results, kind, name);
   const bool is_there = found != nullptr && row_count(*found) > 0;
   return is_there ? Made(titled(*found, results)) : Made();
 }
@@ -93,6 +91,12 @@ bool has_parent(const Column& column) {
 
 std::span<const ResultsTable> results_tables() {
   return kTables;
+}
+
+const Table* find_answer_table(const StudyResults& results, AnswerKind kind,
+                               std::string_view name) {
+  const auto answer = std::ranges::find(results.answers, kind, &VerbAnswer::kind);
+  return answer == results.answers.end() ? nullptr : find_part(answer->tables, name);
 }
 
 Table list_tables(const StudyResults& results) {

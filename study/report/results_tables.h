@@ -33,6 +33,9 @@ Table make_results_table(const StudyResults& results, std::string_view name);
 // row has one.
 Table evaluations_table(const StudyResults& results);
 
+// A table of what a verb concluded, as it is stored ("result", "estimates"), or null.
+const Table* find_answer_table(const StudyResults& results, AnswerKind kind, std::string_view name);
+
 // Time histories below each other: run, time, channels, and their differences from the reference
 // where that has a value at the same time.
 std::optional<Table> traces_table(const StudyResults& results);

@@ -1,6 +1,7 @@
-// Cells and heads as people read them: shared by the text, Markdown and LaTeX forms of a table.
+// Cells and heads, shared by the forms of a table.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,6 +12,9 @@ namespace linkstudy {
 
 // The number in the column's form, the text on one line, `missing` for a number that is NaN.
 std::string shown(const Column& column, std::size_t row, const std::string& missing);
+
+// What programs read: the number with all digits, null where there is none, the word or the text.
+nlohmann::ordered_json json_cell(const Column& column, std::size_t row);
 
 // A column's name over lines of at most `width` characters as far as it can be broken behind dots,
 // underscores and blanks.

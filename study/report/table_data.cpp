@@ -33,6 +33,8 @@ std::string csv_line(const Table& table, Content content) {
   return joined_columns(table, ",", content) + "\n";
 }
 
+}  // namespace
+
 Json json_cell(const Column& column, std::size_t row) {
   return std::visit(
       [&](const auto& values) -> Json {
@@ -44,8 +46,6 @@ Json json_cell(const Column& column, std::size_t row) {
       },
       column.values);
 }
-
-}  // namespace
 
 std::string csv_of(const Table& table) {
   std::string text =

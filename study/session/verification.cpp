@@ -17,6 +17,7 @@
 #include "study/record/digest.h"
 #include "study/record/version.h"
 #include "study/session/calibration_run.h"
+#include "study/session/stored_answer.h"
 #include "study/session/stored_evaluator.h"
 #include "study/session/study_record.h"
 #include "study/session/tuning_run.h"
@@ -30,14 +31,6 @@ namespace {
 
 // Relative, between instruction sets that round differently: integration multiplies roundings.
 constexpr double kOtherRounding = 1e-6;
-
-// The object of --json that the results keep, or null.
-nlohmann::json answer_of(const StudyResults& results) {
-  if (results.answers.empty()) return nullptr;
-  const Attribute* text = find_attribute(results.answers.front().tables, "answer");
-  if (text == nullptr) return nullptr;
-  return nlohmann::json::parse(std::get<std::string>(text->value), nullptr, false);
-}
 
 // Every list "evaluations" below a certificate.
 void collect_evaluations(const nlohmann::json& json, std::vector<std::uint64_t>& ids) {
@@ -93,7 +86,7 @@ class Verifier {
     result_.stored = evaluations_.size();
     evaluator_ = make_stored_evaluator(results_);
     compare_program();
-    const nlohmann::json answer = answer_of(results_);
+    const nlohmann::json answer = stored_answer(results_);
     std::vector<std::uint64_t> needed;
     collect_needed(answer, needed);
     collect_without_residuals(needed);

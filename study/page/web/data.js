@@ -17,6 +17,22 @@ function findColumn(table, name) {
   return table ? table.columns.find((column) => column.name === name) || null : null;
 }
 
+// Position of the last of ascending numbers that is not beyond x; the first if all are.
+function lastUpTo(numbers, x) {
+  let [low, high] = [0, numbers.length];
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (numbers[middle] <= x) low = middle; else high = middle;
+  }
+  return low;
+}
+
+function nearest(numbers, x) {
+  const low = lastUpTo(numbers, x);
+  const high = Math.min(low + 1, numbers.length - 1);
+  return x - numbers[low] <= numbers[high] - x ? low : high;
+}
+
 function rowCount(table) {
   return table && table.columns.length ? table.columns[0].values.length : 0;
 }

@@ -35,13 +35,7 @@ class History {
   // Value at an instant, by rows.
   at(name, row) {
     const {values, rows} = this.samples(name);
-    if (!rows) return values[row];
-    let [low, high] = [0, rows.length - 1];
-    while (high - low > 1) {
-      const middle = (low + high) >> 1;
-      if (rows[middle] <= row) low = middle; else high = middle;
-    }
-    return row - rows[low] <= rows[high] - row ? values[low] : values[high];
+    return rows ? values[nearest(rows, row)] : values[row];
   }
 }
 
@@ -114,9 +108,8 @@ function addHistories(main) {
       "as they were stored."
     : "As they were stored.");
   const grid = addFigures(section, true);
-  const twin = historyPanel(grid, groups, overs, groups[0], "time");
+  historyPanel(grid, groups, overs, groups[0], "time");
   if (overs.length > 1 && again.length) historyPanel(grid, groups, overs, groups[0], overs[1]);
-  return twin;
 }
 
 function historyPanel(grid, groups, overs, group, over) {
@@ -132,7 +125,6 @@ function historyPanel(grid, groups, overs, group, over) {
     }}), one.isAgain ? `${one.name} (run again)` : one.name));
   const figure = addFigure(grid, historyFigure(group, over, [...chosen]),
     make("div", {class: "controls"}, what.element, across.element, ...boxes));
-  return figure;
 }
 
 // Where the centre of a journal goes within its clearance; true to scale.

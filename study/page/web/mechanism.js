@@ -193,12 +193,8 @@ class Mechanism {
   }
 
   instantOf(time) {
-    const last = this.times.length - 1;
-    let [low, high] = [0, last];
-    while (high - low > 1) {
-      const middle = (low + high) >> 1;
-      if (this.times[middle] <= time) low = middle; else high = middle;
-    }
+    const low = lastUpTo(this.times, time);
+    const high = Math.min(low + 1, this.times.length - 1);
     const width = this.times[high] - this.times[low];
     const part = width > 0 ? Math.min(Math.max((time - this.times[low]) / width, 0), 1) : 0;
     return {low, high, part};
@@ -222,7 +218,7 @@ class Mechanism {
     const ends = this.placesOf(closure.frames);
     closure.gap.geometry.setFromPoints(ends);
     const names = closure.largest > 0 ? this.forceNames(closure.name) : null;
-    const row = names ? nearestRow(this.history.time, time) : 0;
+    const row = names ? nearest(this.history.time, time) : 0;
     const force = names ? new THREE.Vector3(...names.map((n) => this.history.at(n, row))) : null;
     const isThere = force !== null && force.length() > 1e-3 * closure.largest;
     closure.arrow.visible = isThere;
@@ -233,13 +229,4 @@ class Mechanism {
     closure.arrow.setLength(length, Math.min(0.3 * length, 0.08 * this.size),
                             Math.min(0.15 * length, 0.04 * this.size));
   }
-}
-
-function nearestRow(times, time) {
-  let [low, high] = [0, times.length - 1];
-  while (high - low > 1) {
-    const middle = (low + high) >> 1;
-    if (times[middle] <= time) low = middle; else high = middle;
-  }
-  return time - times[low] <= times[high] - time ? low : high;
 }

@@ -16,12 +16,8 @@ const kGoodWords = ["certified", "fitted", "converged", "complete"];
 const kBadWords = ["refuted", "infeasible", "failed"];
 
 function valueTexts() {
-  const estimates = findTable("calibration");
-  const tuned = findTable("tuning");
-  const table = estimates || tuned;
-  if (!table) return [];
-  const [names, values] = ["parameter", estimates ? "value" : "value"].map(
-    (name) => findColumn(table, name));
+  const table = findTable("calibration") || findTable("tuning");
+  const [names, values] = ["parameter", "value"].map((name) => findColumn(table, name));
   if (!names || !values) return [];
   const units = findColumn(table, "unit");
   const [low, high] = [findColumn(table, "low"), findColumn(table, "high")];

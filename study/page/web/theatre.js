@@ -146,7 +146,7 @@ function addMechanism(main) {
     theatre.renderer.domElement.setAttribute("aria-label",
       `Mechanism of ${moving[0].links.length - 1} links, ${names.join(" over ")}. ` +
       "Space plays, arrow keys move in time.");
-    window.player = new Player(theatre, figure);
+    new Player(theatre, figure);
   } catch (error) {
     place.remove();
     figure.append(make("p", {}, `This browser draws no 3-D (${error.message}).`));

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "study/evaluate/reference_bytes.h"
+#include "tests/study/evaluate/read_evaluator.h"
 
 namespace linkstudy::evaluator_test {
 namespace {
@@ -94,15 +95,7 @@ class Evaluation : public ::testing::Test {
   std::unique_ptr<Evaluator> try_to_make(const std::string& study) {
     const std::string path = (directory_ / "study.toml").string();
     std::ofstream(path) << kHead << study;
-    std::optional<StudyInput> input = read_study(path, {}, diagnostics_);
-    if (!input) return nullptr;
-    std::vector<Parameter> parameters;
-    std::vector<Value> first;
-    for (const VaryInput& vary : input->vary) {
-      parameters.push_back(vary.parameter);
-      first.push_back(vary.values.front());
-    }
-    return Evaluator::make(std::move(*input), parameters, first, diagnostics_);
+    return read_evaluator(path, diagnostics_);
   }
 
   void make(const std::string& study) {

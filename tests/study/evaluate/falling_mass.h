@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "study/evaluate/evaluator.h"
+#include "tests/study/evaluate/read_evaluator.h"
 
 namespace linkstudy {
 
@@ -46,16 +46,7 @@ step = 0.08
   // Of a study of these lines.
   std::unique_ptr<Evaluator> make(const std::string& text) {
     write("study.toml", "format = 1\nkind = \"study\"\nmodel = \"model.toml\"\n" + text);
-    std::optional<StudyInput> input =
-        read_study((directory_ / "study.toml").string(), {}, diagnostics_);
-    if (!input) return nullptr;
-    std::vector<Parameter> parameters;
-    std::vector<Value> first;
-    for (const VaryInput& vary : input->vary) {
-      parameters.push_back(vary.parameter);
-      first.push_back(vary.values.front());
-    }
-    return Evaluator::make(std::move(*input), parameters, first, diagnostics_);
+    return read_evaluator((directory_ / "study.toml").string(), diagnostics_);
   }
 
   static Evaluation evaluate(Evaluator& evaluator, double step) {
