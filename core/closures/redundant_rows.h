@@ -35,8 +35,8 @@ inline constexpr unsigned kAllLanes = (1u << RealTraits<Real>::lanes) - 1u;
 
 // f(k) of the velocities that move the two ends of a closure against each other: on the path of one
 // end to ground and not on that of the other.
-template <class M, class F>
-inline void for_relative_velocities(const M& m, const ClosureStructure& c, F&& f) {
+template <class F>
+inline void for_relative_velocities(const Mechanism& m, const ClosureStructure& c, F&& f) {
   int a = c.last_1, b = c.last_2;
   while (a != b) {
     int& last = a > b ? a : b;
@@ -52,9 +52,9 @@ inline Real largest_component(const Vec3<Real>& a) {
 
 // Distance of a closure point from the axis of a velocity, or of a screw's motion along it if that
 // is more; m.
-template <class M, class Real>
-inline Real distance_from_axis(const M& m, const Parameters<Real>& p, const Workspace<Real, M>& w,
-                               int k, const Vec3<Real>& point) {
+template <class Real>
+inline Real distance_from_axis(const Mechanism& m, const Parameters<Real>& p,
+                               const Workspace<Real>& w, int k, const Vec3<Real>& point) {
   const Velocity& v = at(m.velocities, k);
   const Vec3<Real> turned = cross(at(w.axes, k), point - at(w.bodies, v.body).p);
   const Real distance = sqrt(dot(turned, turned));
@@ -62,8 +62,8 @@ inline Real distance_from_axis(const M& m, const Parameters<Real>& p, const Work
 }
 
 // l of a closure; 0 where nothing turns its ends against each other.
-template <class M, class Real>
-inline Real closure_lever(const M& m, const Parameters<Real>& p, const Workspace<Real, M>& w,
+template <class Real>
+inline Real closure_lever(const Mechanism& m, const Parameters<Real>& p, const Workspace<Real>& w,
                           int closure) {
   const Vec3<Real>& point = at(w.closures, closure).p2;
   Real square(0.0), extent(0.0);
@@ -82,26 +82,27 @@ inline Real closure_lever(const M& m, const Parameters<Real>& p, const Workspace
 }
 
 // Scales of all rows. A closure without a lever takes the longest of the others, or 1 m.
-template <class M, class Real>
-inline void update_row_scales(const M& m, const Parameters<Real>& p, Workspace<Real, M>& w) {
+template <class Real>
+inline void update_row_scales(const Mechanism& m, const Parameters<Real>& p, Workspace<Real>& w) {
   Real longest(0.0);
-  for_closures<ClosureModel::cut>(m, [&](auto c) {
+  for (const int c : indices_of(m.closures)) {
+    if (storage_of(at(m.closures, c).model) != RowStorage::cut) continue;
     const Real lever = closure_lever(m, p, w, c);
     longest = max(longest, lever);
-    for_rows(m, c, [&](auto r) { at(w.row_scale, r) = lever; });
-  });
+    for (const int r : rows_of(at(m.closures, c))) at(w.row_scale, r) = lever;
+  }
   longest = select(longest > Real(0.0), longest, Real(1.0));
-  for_range(Index<0>(), cut_row_count(m), [&](auto r) {
+  for (const int r : indices(m.cut_row_count())) {
     Real& s = at(w.row_scale, r);
     s = select(s > Real(0.0), s, longest);
     if (at(m.cut_rows, r).kind == RowKind::rotation) s = Real(1.0);
-  });
+  }
 }
 
 // Largest part of a unit of row r's scaled rate that velocity k can have.
-template <class M, class Real>
-inline Real scaled_bound(const M& m, const Parameters<Real>& p, const Workspace<Real, M>& w, int k,
-                         int r) {
+template <class Real>
+inline Real scaled_bound(const Mechanism& m, const Parameters<Real>& p, const Workspace<Real>& w,
+                         int k, int r) {
   const Row& row = at(m.cut_rows, r);
   const bool slides = at(m.velocities, k).kind == VelocityKind::translation;
   if (row.kind == RowKind::rotation) return Real(slides ? 0.0 : 1.0);
@@ -112,36 +113,39 @@ inline Real scaled_bound(const M& m, const Parameters<Real>& p, const Workspace<
 }
 
 // Scales of all velocities: with them no entry of the scaled Jacobian exceeds about 1.
-template <class M, class Real>
-inline void update_velocity_scales(const M& m, const Parameters<Real>& p, Workspace<Real, M>& w) {
-  for_velocities(m, [&](auto k) { at(w.velocity_scale, k) = Real(0.0); });
-  for_closures<ClosureModel::cut>(m, [&](auto c) {
+template <class Real>
+inline void update_velocity_scales(const Mechanism& m, const Parameters<Real>& p,
+                                   Workspace<Real>& w) {
+  for (const int k : velocities(m)) at(w.velocity_scale, k) = Real(0.0);
+  for (const int c : indices_of(m.closures)) {
+    if (storage_of(at(m.closures, c).model) != RowStorage::cut) continue;
     for_relative_velocities(m, at(m.closures, c), [&](int k) {
       Real& scale = at(w.velocity_scale, k);
-      for (int r = row_begin(m, c); r < row_end(m, c); ++r) {
+      for (int r = at(m.closures, c).row_begin; r < at(m.closures, c).row_end; ++r) {
         scale = max(scale, scaled_bound(m, p, w, k, r));
       }
     });
-  });
-  for_velocities(m, [&](auto k) {
+  }
+  for (const int k : velocities(m)) {
     Real& scale = at(w.velocity_scale, k);
     scale = select(scale > Real(0.0), scale, Real(1.0));
-  });
+  }
 }
 
 // Largest gap of a row in its scale.
-template <class M, class Real>
-inline Real largest_gap(const M& m, const Workspace<Real, M>& w) {
+template <class Real>
+inline Real largest_gap(const Mechanism& m, const Workspace<Real>& w) {
   Real gap(0.0);
-  for_range(Index<0>(), cut_row_count(m),
-            [&](auto r) { gap = max(gap, abs(at(w.cut_rows, r).d) / at(w.row_scale, r)); });
+  for (const int r : indices(m.cut_row_count())) {
+    gap = max(gap, abs(at(w.cut_rows, r).d) / at(w.row_scale, r));
+  }
   return gap;
 }
 
-template <class M, class Real>
-inline void fill_redundant_system(const M& m, const Workspace<Real, M>& w, int i,
+template <class Real>
+inline void fill_redundant_system(const Mechanism& m, const Workspace<Real>& w, int i,
                                   RedundantSystem& system) {
-  const int nv = m.nv, nc = cut_row_count(m);
+  const int nv = m.nv, nc = m.cut_row_count();
   const auto copy = [i](const auto& from, int count, double* to) {
     for (int n = 0; n < count; ++n) to[n] = lane(at(from, n), i);
   };
@@ -154,8 +158,9 @@ inline void fill_redundant_system(const M& m, const Workspace<Real, M>& w, int i
 
 // Factors for the lanes of Workspace::redundant, and the number of their independent rows.
 // Precondition: cut_jacobian.
-template <class M, class Real>
-inline void factorize_redundant_rows(const M& m, const Parameters<Real>& p, Workspace<Real, M>& w) {
+template <class Real>
+inline void factorize_redundant_rows(const Mechanism& m, const Parameters<Real>& p,
+                                     Workspace<Real>& w) {
   update_row_scales(m, p, w);
   update_velocity_scales(m, p, w);
   const Real by_gap = Real(DriftTolerance::per_gap) * largest_gap(m, w);
@@ -171,23 +176,23 @@ inline void factorize_redundant_rows(const M& m, const Parameters<Real>& p, Work
 
 // Solves the lanes that factorize_redundant_rows did; take keeps their right-hand sides from what
 // is done to the other lanes, give puts the multipliers in.
-template <class M, class Real>
-inline void take_redundant_rows(const M& m, Workspace<Real, M>& w) {
+template <class Real>
+inline void take_redundant_rows(const Mechanism& m, Workspace<Real>& w) {
   for (int i = 0; i < RealTraits<Real>::lanes; ++i) {
     if ((w.redundant >> i & 1u) == 0) continue;
     double* b = at(w.redundant_systems, i).right_hand_side();
-    for (int r = 0; r < cut_row_count(m); ++r) b[r] = lane(at(w.schur_rhs, r), i);
+    for (int r = 0; r < m.cut_row_count(); ++r) b[r] = lane(at(w.schur_rhs, r), i);
   }
 }
 
-template <class M, class Real>
-inline void give_redundant_rows(const M& m, Workspace<Real, M>& w) {
+template <class Real>
+inline void give_redundant_rows(const Mechanism& m, Workspace<Real>& w) {
   for (int i = 0; i < RealTraits<Real>::lanes; ++i) {
     if ((w.redundant >> i & 1u) == 0) continue;
     RedundantSystem& system = at(w.redundant_systems, i);
     double* b = system.right_hand_side();
     system.solve(b);
-    for (int r = 0; r < cut_row_count(m); ++r) set_lane(at(w.schur_rhs, r), i, b[r]);
+    for (int r = 0; r < m.cut_row_count(); ++r) set_lane(at(w.schur_rhs, r), i, b[r]);
   }
 }
 

@@ -6,12 +6,12 @@
 
 namespace linkstudy {
 
-template <class M, class Real>
-inline void solve_accelerations(const M& m, const Parameters<Real>& p, Workspace<Real, M>& w) {
-  for_velocities(m, [&](auto k) { at(w.y, k) = at(w.tau, k); });
+template <class Real>
+inline void solve_accelerations(const Mechanism& m, const Parameters<Real>& p, Workspace<Real>& w) {
+  for (const int k : velocities(m)) at(w.y, k) = at(w.tau, k);
   solve_branch_transposed(m, w.mass.data(), w.y.data());
   solve_cut_joints(m, p, w);
-  for_velocities(m, [&](auto k) { at(w.qdd, k) = at(w.y, k) * at(w.inverse_pivot, k); });
+  for (const int k : velocities(m)) at(w.qdd, k) = at(w.y, k) * at(w.inverse_pivot, k);
   solve_branch(m, w.mass.data(), w.qdd.data());
 }
 

@@ -19,11 +19,11 @@ struct Energy {
   Real potential() const { return height + elastic; }
 };
 
-template <class M, class Real>
-inline Energy<Real> compute_energy(const M& m, const Parameters<Real>& p, const Real* q,
-                                   const Workspace<Real, M>& w) {
+template <class Real>
+inline Energy<Real> compute_energy(const Mechanism& m, const Parameters<Real>& p, const Real* q,
+                                   const Workspace<Real>& w) {
   Energy<Real> e{Real(0.0), Real(0.0), Real(0.0)};
-  for_bodies(m, [&](auto b) {
+  for (const int b : bodies_outwards(m)) {
     const BodyState<Real>& s = at(w.bodies, b);
     const Inertia<Real>& i = s.inertia;
     // 1/2 m v.v + v.(omega x h) + 1/2 omega.I omega
@@ -31,21 +31,21 @@ inline Energy<Real> compute_energy(const M& m, const Parameters<Real>& p, const 
     if (at(m.bodies, b).rotates) twice = twice + dot(s.omega, i.i * s.omega);
     e.kinetic = madd(Real(0.5), twice, e.kinetic);
     e.height = e.height - dot(p.gravity, madd(i.m, s.p, i.h));
-  });
-  for_range(Index<0>(), sde_row_count(m), [&](auto i) {
+  }
+  for (const int i : indices(m.sde_row_count())) {
     const Real d = at(w.sde_rows, i).d;
     e.elastic = madd(Real(0.5) * at(p.springs, i).stiffness * d, d, e.elastic);
-  });
-  for_joint_springs(m, [&](auto i) {
+  }
+  for (const int i : indices_of(m.joint_springs)) {
     const JointSpringParameters<Real>& n = at(p.joint_springs, i);
     const Real d = q[at(m.joint_springs, i).q] - n.rest;
     e.elastic = madd(Real(0.5) * n.stiffness * d, d, e.elastic);
-  });
-  for_all_contacts(m, [&](auto i) {
+  }
+  for (const int i : indices_of(m.contacts)) {
     const ContactState<Real>& s = at(w.contacts, i);
     const ClearanceParameters<Real>& n = at(p.clearances, at(m.contacts, i).clearance);
     e.elastic = e.elastic + contact_energy(n.contact, s.depth, s.elastic);
-  });
+  }
   return e;
 }
 

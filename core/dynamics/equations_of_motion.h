@@ -10,9 +10,9 @@
 namespace linkstudy {
 
 // Kinematics, forces, bias, mass matrix and its factor.
-template <class M, class Real>
-inline void update_factored_mass_matrix(const M& m, const Parameters<Real>& p, Real t,
-                                        const Real* q, const Real* v, Workspace<Real, M>& w) {
+template <class Real>
+inline void update_factored_mass_matrix(const Mechanism& m, const Parameters<Real>& p, Real t,
+                                        const Real* q, const Real* v, Workspace<Real>& w) {
   update_kinematics(m, p, q, v, w);
   update_inertial_wrenches(m, w);
   update_applied_forces(m, p, t, q, v, w);
@@ -21,9 +21,9 @@ inline void update_factored_mass_matrix(const M& m, const Parameters<Real>& p, R
   factorize_branch_sparse(m, w.mass.data(), w.inverse_pivot.data());
 }
 
-template <class M, class Real>
-inline void evaluate(const M& m, const Parameters<Real>& p, Real t, const Real* q, const Real* v,
-                     Workspace<Real, M>& w) {
+template <class Real>
+inline void evaluate(const Mechanism& m, const Parameters<Real>& p, Real t, const Real* q,
+                     const Real* v, Workspace<Real>& w) {
   update_factored_mass_matrix(m, p, t, q, v, w);
   update_cut_joints(m, p, w);
   solve_accelerations(m, p, w);

@@ -86,89 +86,89 @@ inline void set_load(const JointFrictionStructure& s, const JointFrictionParamet
 
 // Gaps between the loads that the reactions ask for and those in use; true in lanes where none is
 // left.
-template <class M, class Real>
-inline auto load_gaps(const M& m, const Parameters<Real>& p, Workspace<Real, M>& w) {
+template <class Real>
+inline auto load_gaps(const Mechanism& m, const Parameters<Real>& p, Workspace<Real>& w) {
   update_reactions(m, p, w, w.reactions);
-  if constexpr (!FixedStructure<M>) {
-    if (!w.shared.empty()) share_reactions(m, w, w.reactions, w.shared.front());
-  }
+  if (!w.shared.empty()) share_reactions(m, w, w.reactions, w.shared.front());
   auto none_left = Real(0.0) == Real(0.0);
-  for_frictions(m, [&](auto i) {
+  for (const int i : indices_of(m.frictions)) {
     const JointFrictionStructure& s = at(m.frictions, i);
     JointFrictionState<Real>& x = at(w.frictions, i);
     const Vec3<Real>& axis = at(w.axes, s.turn >= 0 ? s.turn : s.slide);
     const Real found = normal_load(s, at(p.frictions, i), axis, at(w.reactions.on_child, s.body));
     x.next_gap = found - x.load;
     none_left = none_left && abs(x.next_gap) <= madd(Real(kSettledLoad), found, Real(kLeastLoad));
-  });
+  }
   return none_left;
 }
 
 // Broyden's update of H, which stands for -(d gap / d load)^-1: afterwards H takes the last change
 // of the gaps to minus the last change of the loads.
-template <class M, class Real>
-inline void learn_from_last_change(const M& m, Workspace<Real, M>& w) {
+template <class Real>
+inline void learn_from_last_change(const Mechanism& m, Workspace<Real>& w) {
   const int n = static_cast<int>(m.frictions.size());
   Real* h = w.friction_inverse.data();
   Real scale(0.0);
-  for_frictions(m, [&](auto i) {
+  for (const int i : indices_of(m.frictions)) {
     Real sum(0.0), row(0.0);
-    for_frictions(m, [&](auto j) {
+    for (const int j : indices_of(m.frictions)) {
       const JointFrictionState<Real>& x = at(w.frictions, j);
       sum = madd(h[i * n + j], x.next_gap - x.gap, sum);
       row = madd(x.change, h[j * n + i], row);
-    });
+    }
     JointFrictionState<Real>& x = at(w.frictions, i);
     x.missed = Real(0.0) - x.change - sum;
     x.row = row;
     scale = madd(row, x.next_gap - x.gap, scale);
-  });
+  }
   const auto known = abs(scale) > Real(kLeastChange);
   const Real inverse = select(known, Real(1.0) / select(known, scale, Real(1.0)), Real(0.0));
-  for_frictions(m, [&](auto i) {
-    for_frictions(m, [&](auto j) {
+  for (const int i : indices_of(m.frictions)) {
+    for (const int j : indices_of(m.frictions)) {
       h[i * n + j] =
           madd(at(w.frictions, i).missed * inverse, at(w.frictions, j).row, h[i * n + j]);
-    });
-  });
+    }
+  }
 }
 
 // Loads by H, in lanes that have not settled.
-template <class M, class Real, class Mask>
-inline void change_loads(const M& m, const Parameters<Real>& p, const Mask& settled,
-                         Workspace<Real, M>& w) {
+template <class Real, class Mask>
+inline void change_loads(const Mechanism& m, const Parameters<Real>& p, const Mask& settled,
+                         Workspace<Real>& w) {
   const int n = static_cast<int>(m.frictions.size());
   const Real* h = w.friction_inverse.data();
-  for_frictions(m, [&](auto i) { at(w.frictions, i).gap = at(w.frictions, i).next_gap; });
-  for_frictions(m, [&](auto i) {
+  for (const int i : indices_of(m.frictions)) at(w.frictions, i).gap = at(w.frictions, i).next_gap;
+  for (const int i : indices_of(m.frictions)) {
     JointFrictionState<Real>& x = at(w.frictions, i);
     Real change(0.0);
-    for_frictions(m, [&](auto j) { change = madd(h[i * n + j], at(w.frictions, j).gap, change); });
+    for (const int j : indices_of(m.frictions)) {
+      change = madd(h[i * n + j], at(w.frictions, j).gap, change);
+    }
     x.change = select(settled, Real(0.0), change);
     set_load(at(m.frictions, i), at(p.frictions, i), x.load + x.change, x, w);
-  });
+  }
 }
 
-template <class M, class Real>
-inline void start_loads(const M& m, const Parameters<Real>& p, const Real* v,
-                        Workspace<Real, M>& w) {
+template <class Real>
+inline void start_loads(const Mechanism& m, const Parameters<Real>& p, const Real* v,
+                        Workspace<Real>& w) {
   const int n = static_cast<int>(m.frictions.size());
-  if constexpr (!FixedStructure<M>) {
-    if (!w.shared.empty()) update_self_stresses(m, p, w, w.shared.front());
-  }
-  for_velocities(m, [&](auto k) { at(w.friction_tau, k) = at(w.tau, k); });
-  for_frictions(m, [&](auto i) {
+  if (!w.shared.empty()) update_self_stresses(m, p, w, w.shared.front());
+  for (const int k : velocities(m)) at(w.friction_tau, k) = at(w.tau, k);
+  for (const int i : indices_of(m.frictions)) {
     JointFrictionState<Real>& x = at(w.frictions, i);
     update_coefficients(at(m.frictions, i), at(p.frictions, i), v, x, w);
     x.load = Real(0.0);
-    for_frictions(m, [&](auto j) { at(w.friction_inverse, i * n + j) = Real(i == j ? 1.0 : 0.0); });
-  });
+    for (const int j : indices_of(m.frictions)) {
+      at(w.friction_inverse, i * n + j) = Real(i == j ? 1.0 : 0.0);
+    }
+  }
 }
 
 // Apart, so that linkages without such joints carry none of it.
-template <class M, class Real>
-[[gnu::noinline]] void balance_joint_friction(const M& m, const Parameters<Real>& p, const Real* v,
-                                              Workspace<Real, M>& w) {
+template <class Real>
+[[gnu::noinline]] void balance_joint_friction(const Mechanism& m, const Parameters<Real>& p,
+                                              const Real* v, Workspace<Real>& w) {
   start_loads(m, p, v, w);
   auto settled = load_gaps(m, p, w);
   for (int pass = 0; pass < most_passes<Real>() && !all(settled); ++pass) {
@@ -178,21 +178,19 @@ template <class M, class Real>
     settled = load_gaps(m, p, w) || settled;
   }
   w.jammed = lane_bits(settled) ^ kAllLanes<Real>;
-  for_frictions(m, [&](auto i) {
+  for (const int i : indices_of(m.frictions)) {
     const JointFrictionStructure& s = at(m.frictions, i);
     const JointFrictionState<Real>& x = at(w.frictions, i);
     if (s.turn >= 0) w.dissipated_power = madd(x.on_turn, v[s.turn], w.dissipated_power);
     if (s.slide >= 0) w.dissipated_power = madd(x.on_slide, v[s.slide], w.dissipated_power);
-  });
+  }
 }
 
-template <class M, class Real>
-inline void settle_joint_friction(const M& m, const Parameters<Real>& p, const Real* v,
-                                  Workspace<Real, M>& w) {
+template <class Real>
+inline void settle_joint_friction(const Mechanism& m, const Parameters<Real>& p, const Real* v,
+                                  Workspace<Real>& w) {
   w.jammed = 0;
-  if constexpr (Counts<M>::frictions != 0) {
-    if (friction_count(m) > 0) balance_joint_friction(m, p, v, w);
-  }
+  if (!m.frictions.empty()) balance_joint_friction(m, p, v, w);
 }
 
 }  // namespace linkstudy

@@ -28,11 +28,11 @@ inline Wrench<Real> inertial_wrench(const Body& body, const BodyState<Real>& s) 
   return w;
 }
 
-template <class M, class Real>
-inline void update_inertial_wrenches(const M& m, Workspace<Real, M>& w) {
-  for_bodies(m, [&](auto b) {
+template <class Real>
+inline void update_inertial_wrenches(const Mechanism& m, Workspace<Real>& w) {
+  for (const int b : bodies_outwards(m)) {
     at(w.bodies, b).wrench = inertial_wrench(at(m.bodies, b), at(w.bodies, b));
-  });
+  }
 }
 
 // Generalised force of a wrench on a velocity with this axis.
@@ -69,21 +69,21 @@ inline void pass_to_parent(const Body& body, const BodyState<Real>& s, bool pare
 }
 
 // Tips to ground: tau less bias, and composite inertias.
-template <class M, class Real>
-inline void update_bias(const M& m, const Parameters<Real>& p, Workspace<Real, M>& w) {
-  for_bodies(m, [&](auto b) {
+template <class Real>
+inline void update_bias(const Mechanism& m, const Parameters<Real>& p, Workspace<Real>& w) {
+  for (const int b : bodies_outwards(m)) {
     if (at(m.bodies, b).carries) at(w.bodies, b).composite = at(w.bodies, b).inertia;
-  });
-  for_bodies_inwards(m, [&](auto b) {
+  }
+  for (const int b : bodies_inwards(m)) {
     const Body& body = at(m.bodies, b);
     const BodyState<Real>& s = at(w.bodies, b);
-    for_velocities_of(m, b, [&](auto k) {
+    for (const int k : velocities_of(body)) {
       at(w.tau, k) =
           at(w.tau, k) - work_rate(at(m.velocities, k), p.pitch.data(), at(w.axes, k), s.wrench);
-    });
-    if (body.parent == 0) return;
+    }
+    if (body.parent == 0) continue;
     pass_to_parent(body, s, at(m.bodies, body.parent).rotates, at(w.bodies, body.parent));
-  });
+  }
 }
 
 // Wrench that accelerates a composite by one unit of a velocity.
@@ -101,23 +101,23 @@ inline Wrench<Real> unit_wrench(const Velocity& k, const Real* pitch, const Vec3
 }
 
 // Lower triangle of M on the paths to ground; entries off the paths are never touched.
-template <class M, class Real>
-inline void update_mass_matrix(const M& m, const Parameters<Real>& p, Workspace<Real, M>& w) {
+template <class Real>
+inline void update_mass_matrix(const Mechanism& m, const Parameters<Real>& p, Workspace<Real>& w) {
   const Real* pitch = p.pitch.data();
-  for_velocities(m, [&](auto k) {
-    const auto tip = body_of(m, k);
+  for (const int k : velocities(m)) {
+    const int tip = at(m.velocities, k).body;
     Real* row = &at(w.mass, k * m.nv);
     Wrench<Real> f = unit_wrench(at(m.velocities, k), pitch, at(w.axes, k),
                                  composite_of(at(m.bodies, tip), at(w.bodies, tip)));
-    for_bodies_to_ground(m, tip, [&](auto b) {
+    for (const int b : bodies_to_ground(m, tip)) {
       const Body& body = at(m.bodies, b);
-      for_velocities_of(m, b, [&](auto i) {
+      for (const int i : velocities_of(body)) {
         if (i <= k) row[i] = work_rate(at(m.velocities, i), pitch, at(w.axes, i), f);
-      });
-      if (body.parent == 0 || !body.shifted) return;
+      }
+      if (!body.shifted) continue;
       f.moment = f.moment + cross(at(w.bodies, b).shift, f.force);
-    });
-  });
+    }
+  }
 }
 
 }  // namespace linkstudy

@@ -12,40 +12,32 @@
 
 namespace linkstudy {
 
-// Scratch and result of `update_reactions`.
-template <class Real, class M = Mechanism>
-using Reactions = ReactionState<Real, Counts<M>::bodies>;
-
-template <class Real, class M>
-inline Reactions<Real, M> make_reactions(const M& m) {
-  Reactions<Real, M> r{};
-  if constexpr (!FixedStructure<M>) {
-    r.moving.resize(m.bodies.size());
-    r.on_child.resize(m.bodies.size());
-  }
-  return r;
+template <class Real>
+inline Reactions<Real> make_reactions(const Mechanism& m) {
+  return {std::vector<BodyState<Real>>(m.bodies.size()),
+          std::vector<Wrench<Real>>(m.bodies.size())};
 }
 
 // What moves a body, less what acts on it beside joints.
-template <class M, class Real, class R>
-inline void sum_free_body_wrenches(const M& m, const Parameters<Real>& p,
-                                   const Workspace<Real, M>& w, R& r) {
+template <class Real>
+inline void sum_free_body_wrenches(const Mechanism& m, const Parameters<Real>& p,
+                                   const Workspace<Real>& w, Reactions<Real>& r) {
   r.moving = w.bodies;
   at(r.on_child, 0) = {zero3<Real>(), zero3<Real>()};
-  for_bodies(m, [&](auto b) {
+  for (const int b : bodies_outwards(m)) {
     add_joint_accelerations(m, p, w, b, r.moving);
     Body body = at(m.bodies, b);
     body.gyrates = body.rotates;  // alpha is no longer that of qdd = 0
     at(r.on_child, b) = inertial_wrench(body, at(r.moving, b));
-  });
-  for_loads(m, [&](auto i) {
+  }
+  for (const int i : indices_of(m.loads)) {
     const int body = at(m.loads, i).body;
-    if (body < 0) return;
+    if (body < 0) continue;
     Wrench<Real>& sum = at(r.on_child, body);
     sum.force = sum.force - at(w.link_loads, i).force;
     sum.moment = sum.moment - at(w.link_loads, i).moment;
-  });
-  const auto subtract = [&](auto i) {
+  }
+  const auto subtract = [&](int i) {
     const ClosureStructure& c = at(m.closures, i);
     subtract_closure_forces(c, at(w.closures, i), w.bodies.data(), at(r.on_child, c.first),
                             at(r.on_child, c.second));
@@ -53,20 +45,23 @@ inline void sum_free_body_wrenches(const M& m, const Parameters<Real>& p,
     subtract_contact_forces(c, at(w.closures, i), w.bodies.data(), at(r.on_child, c.first),
                             at(r.on_child, c.second));
   };
-  for_closures<ClosureModel::cut>(m, subtract);
-  for_closures<ClosureModel::sde>(m, subtract);
+  for (const RowStorage storage : {RowStorage::cut, RowStorage::sde}) {
+    for (const int i : indices_of(m.closures)) {
+      if (storage_of(at(m.closures, i).model) == storage) subtract(i);
+    }
+  }
 }
 
-template <class M, class Real, class R>
-inline void update_reactions(const M& m, const Parameters<Real>& p, const Workspace<Real, M>& w,
-                             R& r) {
+template <class Real>
+inline void update_reactions(const Mechanism& m, const Parameters<Real>& p,
+                             const Workspace<Real>& w, Reactions<Real>& r) {
   sum_free_body_wrenches(m, p, w, r);
-  for_bodies_inwards(m, [&](auto b) {
-    const auto parent = parent_of(m, b);
+  for (const int b : bodies_inwards(m)) {
+    const int parent = at(m.bodies, b).parent;
     Wrench<Real>& sum = at(r.on_child, parent);
     add_force(sum, at(w.bodies, b).p - at(w.bodies, parent).p, at(r.on_child, b).force);
     sum.moment = sum.moment + at(r.on_child, b).moment;
-  });
+  }
 }
 
 }  // namespace linkstudy

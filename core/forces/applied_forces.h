@@ -30,24 +30,24 @@ inline Real course_value(const LoadStructure& s, const LoadParameters<Real>& n,
   return value;
 }
 
-template <class M, class Real>
-inline void add_drive(const LoadStructure& s, Real value, const Real* v, Workspace<Real, M>& w) {
+template <class Real>
+inline void add_drive(const LoadStructure& s, Real value, const Real* v, Workspace<Real>& w) {
   at(w.tau, s.v) = at(w.tau, s.v) + value;
   w.supplied_power = madd(value, v[s.v], w.supplied_power);
 }
 
-template <class M, class Real>
+template <class Real>
 inline void add_resistance(const LoadStructure& s, Real coefficient, const Real* v,
-                           Workspace<Real, M>& w) {
+                           Workspace<Real>& w) {
   const Real value = s.law == ResistanceShape::linear ? linear_resistance(v[s.v], coefficient)
                                                       : quadratic_resistance(v[s.v], coefficient);
   at(w.tau, s.v) = at(w.tau, s.v) - value;
   w.dissipated_power = madd(value, v[s.v], w.dissipated_power);
 }
 
-template <class M, class Real>
+template <class Real>
 inline void add_link_load(const LoadStructure& s, const LoadParameters<Real>& n, Real value,
-                          Workspace<Real, M>& w, Wrench<Real>& load) {
+                          Workspace<Real>& w, Wrench<Real>& load) {
   BodyState<Real>& b = at(w.bodies, s.body);
   const Vec3<Real> e = value * (s.follows_link ? b.r * n.direction : n.direction);
   load = {e, zero3<Real>()};
@@ -57,61 +57,65 @@ inline void add_link_load(const LoadStructure& s, const LoadParameters<Real>& n,
   w.supplied_power = w.supplied_power + dot(b.v, load.force) + dot(b.omega, load.moment);
 }
 
-template <class M, class Real>
-inline void add_loads(const M& m, const Parameters<Real>& p, Real t, const Real* v,
-                      Workspace<Real, M>& w) {
-  for_loads(m, [&](auto i) {
+template <class Real>
+inline void add_loads(const Mechanism& m, const Parameters<Real>& p, Real t, const Real* v,
+                      Workspace<Real>& w) {
+  for (const int i : indices_of(m.loads)) {
     const LoadStructure& s = at(m.loads, i);
     const LoadParameters<Real>& n = at(p.loads, i);
-    if (s.type == LoadType::resistance) return add_resistance(s, n.value, v, w);
+    if (s.type == LoadType::resistance) {
+      add_resistance(s, n.value, v, w);
+      continue;
+    }
     const Real value = course_value(s, n, p.segments.data(), t);
     if (s.type == LoadType::drive) {
       add_drive(s, value, v, w);
     } else {
       add_link_load(s, n, value, w, at(w.link_loads, i));
     }
-  });
+  }
 }
 
 // Springs and dampers of tree joints, such as the sdes of a flexible link ([AugUrb18] sec. 3):
 // tau = -c (q - rest) - b v.
-template <class M, class Real>
-inline void add_joint_springs(const M& m, const Parameters<Real>& p, const Real* q, const Real* v,
-                              Workspace<Real, M>& w) {
-  for_joint_springs(m, [&](auto i) {
+template <class Real>
+inline void add_joint_springs(const Mechanism& m, const Parameters<Real>& p, const Real* q,
+                              const Real* v, Workspace<Real>& w) {
+  for (const int i : indices_of(m.joint_springs)) {
     const JointSpring& s = at(m.joint_springs, i);
     const JointSpringParameters<Real>& n = at(p.joint_springs, i);
     const Real damping = n.damping * v[s.v];
     at(w.tau, s.v) = at(w.tau, s.v) - madd(n.stiffness, q[s.q] - n.rest, damping);
     w.dissipated_power = madd(damping, v[s.v], w.dissipated_power);
-  });
+  }
 }
 
 // Spring-damping elements: f = c d + b d_dot along each row, on chain 1 ([Urbas16] eqs. (5), (14)).
-template <class M, class Real>
-inline void add_sdes(const M& m, const Parameters<Real>& p, Workspace<Real, M>& w) {
-  update_rows<ClosureModel::sde>(m, p, w);
-  for_range(Index<0>(), sde_row_count(m), [&](auto i) {
+template <class Real>
+inline void add_sdes(const Mechanism& m, const Parameters<Real>& p, Workspace<Real>& w) {
+  update_rows<RowStorage::sde>(m, p, w);
+  for (const int i : indices(m.sde_row_count())) {
     RowState<Real>& row = at(w.sde_rows, i);
     const SpringParameters<Real>& n = at(p.springs, i);
     const Real damping_force = n.damping * row.rate;
     row.value = madd(n.stiffness, row.d, damping_force);
     w.dissipated_power = madd(damping_force, row.rate, w.dissipated_power);
-  });
-  sum_row_forces<ClosureModel::sde>(m, w);
+  }
+  sum_row_forces<RowStorage::sde>(m, w);
   BodyState<Real>* bodies = w.bodies.data();
-  for_closures<ClosureModel::sde>(m, [&](auto i) {
+  for (const int i : indices_of(m.closures)) {
     const ClosureStructure& c = at(m.closures, i);
+    if (storage_of(c.model) != RowStorage::sde) continue;
     subtract_closure_forces(c, at(w.closures, i), bodies, bodies[c.first].wrench,
                             bodies[c.second].wrench);
-  });
+  }
 }
 
 // Precondition: BodyState::wrench holds the inertial wrenches; the forces are taken off them.
-template <class M, class Real>
-inline void update_applied_forces(const M& m, const Parameters<Real>& p, Real t, const Real* q,
-                                  const Real* v, Workspace<Real, M>& w) {
-  for_velocities(m, [&](auto k) { at(w.tau, k) = Real(0.0); });
+template <class Real>
+inline void update_applied_forces(const Mechanism& m, const Parameters<Real>& p, Real t,
+                                  const Real* q, const Real* v, Workspace<Real>& w) {
+  for (const int k : velocities(m)) at(w.tau, k) = Real(0.0);
   w.supplied_power = Real(0.0);
   w.dissipated_power = Real(0.0);
   add_loads(m, p, t, v, w);

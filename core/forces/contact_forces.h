@@ -62,10 +62,11 @@ inline Real contact_friction(const ClearanceStructure& structure, const ContactS
   return f.mu * s.normal;
 }
 
-template <class M, class C, class I, class Real>
-[[gnu::noinline]] void add_contact(const M& m, C c, I i, const JournalInBearing<Real>& j,
+template <class Real>
+[[gnu::noinline]] void add_contact(const Mechanism& m, int c, int i,
+                                   const JournalInBearing<Real>& j,
                                    const ClearanceParameters<Real>& n, ClosureState<Real>& x,
-                                   Workspace<Real, M>& w) {
+                                   Workspace<Real>& w) {
   const ClearanceStructure& structure = at(m.clearances, c);
   const ContactStructure& contact = at(m.contacts, i);
   const ContactMemory<Real>& memory = at(w.memory, i);
@@ -94,15 +95,17 @@ template <class M, class C, class I, class Real>
       w.dissipated_power + madd(s.friction, s.speed, (s.normal - s.elastic) * s.rate);
 }
 
-template <class M, class Real>
-inline void add_contacts(const M& m, const Parameters<Real>& p, Workspace<Real, M>& w) {
+template <class Real>
+inline void add_contacts(const Mechanism& m, const Parameters<Real>& p, Workspace<Real>& w) {
   BodyState<Real>* bodies = w.bodies.data();
-  for_journals(m, p, w, [&](auto c, const JournalInBearing<Real>& j) {
+  for_journals(m, p, w, [&](int c, const JournalInBearing<Real>& j) {
     const int index = at(m.clearances, c).closure;
     const ClosureStructure& closure = at(m.closures, index);
     ClosureState<Real>& x = at(w.closures, index);
     x.contact_force = x.contact_moment = x.contact_surplus = zero3<Real>();
-    for_contacts(m, c, [&](auto i) { add_contact(m, c, i, j, at(p.clearances, c), x, w); });
+    for (const int i : contacts_of(at(m.clearances, c))) {
+      add_contact(m, c, i, j, at(p.clearances, c), x, w);
+    }
     subtract_contact_forces(closure, x, bodies, bodies[closure.first].wrench,
                             bodies[closure.second].wrench);
   });

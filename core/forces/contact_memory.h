@@ -7,11 +7,11 @@
 namespace linkstudy {
 
 // No contact acts, wherever the journals are.
-template <class M, class Real>
-inline void hold_contacts_open(const M& m, Workspace<Real, M>& w) {
-  for_all_contacts(m, [&](auto i) {
+template <class Real>
+inline void hold_contacts_open(const Mechanism& m, Workspace<Real>& w) {
+  for (const int i : indices_of(m.contacts)) {
     at(w.memory, i).least_depth = Real(std::numeric_limits<double>::infinity());
-  });
+  }
 }
 
 // A contact before a run.
@@ -23,21 +23,21 @@ inline ContactMemory<Real> fresh_contact() {
 }
 
 // After an evaluation at the start: what touches there begins there, with the rate it has.
-template <class M, class Real>
-inline void begin_contact_memory(const M& m, Workspace<Real, M>& w) {
-  for_all_contacts(m, [&](auto i) {
+template <class Real>
+inline void begin_contact_memory(const Mechanism& m, Workspace<Real>& w) {
+  for (const int i : indices_of(m.contacts)) {
     at(w.memory, i).depth = at(w.contacts, i).depth;
     at(w.memory, i).rate = at(w.contacts, i).rate;
-  });
+  }
 }
 
 // After an evaluation at an accepted state. `steps` counts states in each contact, (contacts);
 // bristles that start afresh are set to zero in z (nz).
-template <class M, class Real>
-inline void update_contact_memory(const M& m, Workspace<Real, M>& w, Real* steps, Real* z,
+template <class Real>
+inline void update_contact_memory(const Mechanism& m, Workspace<Real>& w, Real* steps, Real* z,
                                   ContactLog<Real>& log) {
   const Real none(0.0), one(1.0);
-  for_all_contacts(m, [&](auto i) {
+  for (const int i : indices_of(m.contacts)) {
     const ContactStructure& contact = at(m.contacts, i);
     const ContactState<Real>& s = at(w.contacts, i);
     ContactMemory<Real>& memory = at(w.memory, i);
@@ -52,10 +52,10 @@ inline void update_contact_memory(const M& m, Workspace<Real, M>& w, Real* steps
     memory.depth = s.depth;
     memory.rate = s.rate;
     if (contact.z < 0 || at(m.clearances, contact.clearance).free_bristle != FreeBristle::reset) {
-      return;
+      continue;
     }
     z[contact.z] = select(touches, z[contact.z], none);
-  });
+  }
 }
 
 }  // namespace linkstudy

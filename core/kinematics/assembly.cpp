@@ -353,7 +353,7 @@ ClosureEquations compute_closure_equations(const Mechanism& m, const Parameters<
                                            const State<double>& s) {
   Workspace<double> w = make_workspace<double>(m);
   update_kinematics(m, p, s.q.data(), s.v.data(), w);
-  update_rows<ClosureModel::cut>(m, p, w);
+  update_rows<RowStorage::cut>(m, p, w);
   ClosureEquations e{VectorXd(m.cut_row_count()), row_jacobian(m, p, w, m.cut_rows, w.cut_rows)};
   for (std::size_t r = 0; r < w.cut_rows.size(); ++r) {
     e.residual[static_cast<Eigen::Index>(r)] = w.cut_rows[r].d;

@@ -11,35 +11,37 @@ namespace linkstudy {
 
 // Accelerations with qdd: what each velocity adds is alpha += e qdd (rotation), a += e qdd
 // (translation), carried outwards by a += alpha x shift.
-template <class M, class B, class Real, class Bodies>
-inline void add_joint_accelerations(const M& m, const Parameters<Real>& p,
-                                    const Workspace<Real, M>& w, B b, Bodies& moving) {
-  const auto parent = parent_of(m, b);
+template <class Real>
+inline void add_joint_accelerations(const Mechanism& m, const Parameters<Real>& p,
+                                    const Workspace<Real>& w, int b,
+                                    std::vector<BodyState<Real>>& moving) {
+  const int parent = at(m.bodies, b).parent;
   BodyState<Real>& s = at(moving, b);
   const BodyState<Real>& sp = at(moving, parent);
   const BodyState<Real>& wp = at(w.bodies, parent);
   Vec3<Real> alpha = sp.alpha - wp.alpha;
   Vec3<Real> a = sp.a - wp.a + cross(alpha, at(w.bodies, b).p - wp.p);
-  for_velocities_of(m, b, [&](auto k) {
+  for (const int k : velocities_of(at(m.bodies, b))) {
     const Velocity& velocity = at(m.velocities, k);
     const Vec3<Real> e = at(w.qdd, k) * at(w.axes, k);
     if (velocity.kind == VelocityKind::translation) {
       a = a + e;
-      return;
+      continue;
     }
     alpha = alpha + e;
     if (velocity.kind == VelocityKind::screw) a = madd(at(p.pitch, velocity.stage), e, a);
-  });
+  }
   s.alpha = s.alpha + alpha;
   s.a = s.a + a;
 }
 
 // The states of `w` with accelerations of its qdd; `moving` is as long as they are.
-template <class M, class Real, class Bodies>
-inline void update_body_accelerations(const M& m, const Parameters<Real>& p,
-                                      const Workspace<Real, M>& w, Bodies& moving) {
+template <class Real>
+inline void update_body_accelerations(const Mechanism& m, const Parameters<Real>& p,
+                                      const Workspace<Real>& w,
+                                      std::vector<BodyState<Real>>& moving) {
   moving = w.bodies;
-  for_bodies(m, [&](auto b) { add_joint_accelerations(m, p, w, b, moving); });
+  for (const int b : bodies_outwards(m)) add_joint_accelerations(m, p, w, b, moving);
 }
 
 }  // namespace linkstudy

@@ -19,23 +19,23 @@ inline Real row_rate(const Velocity& k, const Real* pitch, const Vec3<Real>& axi
 }
 
 // Row r of J: the rates by the velocities on the path of the second body, less those of the first.
-template <class M, class C, class Real>
-inline void add_row_rates(const M& m, const Parameters<Real>& p, const Workspace<Real, M>& w,
-                          C closure, const Row& r, const RowState<Real>& row, Real* j) {
+template <class Real>
+inline void add_row_rates(const Mechanism& m, const Parameters<Real>& p, const Workspace<Real>& w,
+                          int closure, const Row& r, const RowState<Real>& row, Real* j) {
   const ClosureState<Real>& x = at(w.closures, closure);
   const Vec3<Real>& point_1 = acts_at_both_points(r.kind) ? x.p1 : x.p2;
   const auto rate = [&](auto k, const Vec3<Real>& point) {
     const Velocity& v = at(m.velocities, k);
     return row_rate(v, p.pitch.data(), at(w.axes, k), at(w.bodies, v.body).p, point, row);
   };
-  for_path_of_first(m, closure, [&](auto k) { j[k] = j[k] - rate(k, point_1); });
-  for_path_of_second(m, closure, [&](auto k) { j[k] = j[k] + rate(k, x.p2); });
+  for (const int k : path(m, at(m.closures, closure).last_1)) j[k] = j[k] - rate(k, point_1);
+  for (const int k : path(m, at(m.closures, closure).last_2)) j[k] = j[k] + rate(k, x.p2);
 }
 
 // Velocity of a point by a velocity of its path, ground axes.
-template <class M, class K, class Real>
-inline Vec3<Real> point_rate(const M& m, const Parameters<Real>& p, const Workspace<Real, M>& w,
-                             K k, const Vec3<Real>& point) {
+template <class Real>
+inline Vec3<Real> point_rate(const Mechanism& m, const Parameters<Real>& p,
+                             const Workspace<Real>& w, int k, const Vec3<Real>& point) {
   const Velocity& v = at(m.velocities, k);
   const Vec3<Real>& e = at(w.axes, k);
   if (v.kind == VelocityKind::translation) return e;
@@ -44,23 +44,23 @@ inline Vec3<Real> point_rate(const M& m, const Parameters<Real>& p, const Worksp
 }
 
 // Rows of J for the three ground axes at once; row n of J starts at j + n nv.
-template <class M, class C, class Real>
-inline void add_point_rates(const M& m, const Parameters<Real>& p, const Workspace<Real, M>& w,
-                            C closure, Real* j) {
+template <class Real>
+inline void add_point_rates(const Mechanism& m, const Parameters<Real>& p, const Workspace<Real>& w,
+                            int closure, Real* j) {
   const int nv = m.nv;
   const ClosureState<Real>& x = at(w.closures, closure);
-  for_path_of_first(m, closure, [&](auto k) {
+  for (const int k : path(m, at(m.closures, closure).last_1)) {
     const Vec3<Real> e = point_rate(m, p, w, k, x.p1);
     j[k] = j[k] - e.x;
     j[nv + k] = j[nv + k] - e.y;
     j[2 * nv + k] = j[2 * nv + k] - e.z;
-  });
-  for_path_of_second(m, closure, [&](auto k) {
+  }
+  for (const int k : path(m, at(m.closures, closure).last_2)) {
     const Vec3<Real> e = point_rate(m, p, w, k, x.p2);
     j[k] = j[k] + e.x;
     j[nv + k] = j[nv + k] + e.y;
     j[2 * nv + k] = j[2 * nv + k] + e.z;
-  });
+  }
 }
 
 // Angular velocity and velocity of a point (6) by a velocity of its path, ground axes.

@@ -24,8 +24,8 @@ inline bool acts_at_both_points(RowKind kind) {
   return kind == RowKind::translation_ground || kind == RowKind::spring_ground;
 }
 
-template <class M, class Real>
-inline void update_closure_pose(const M& m, const ClosureStructure& c,
+template <class Real>
+inline void update_closure_pose(const Mechanism& m, const ClosureStructure& c,
                                 const ClosureParameters<Real>& n, const BodyState<Real>* bodies,
                                 ClosureState<Real>& x) {
   const BodyState<Real>& b1 = bodies[c.first];
@@ -55,8 +55,8 @@ inline Vec3<Real> point_acceleration(const Body& body, const BodyState<Real>& b,
 }
 
 // a2 - a1 of the closure points for qdd = 0.
-template <class M, class Real>
-inline Vec3<Real> gap_acceleration(const M& m, const ClosureStructure& c,
+template <class Real>
+inline Vec3<Real> gap_acceleration(const Mechanism& m, const ClosureStructure& c,
                                    const BodyState<Real>* bodies, const ClosureState<Real>& x) {
   return point_acceleration(at(m.bodies, c.second), bodies[c.second], x.arm_2, x.v2) -
          point_acceleration(at(m.bodies, c.first), bodies[c.first], x.arm_1, x.v1);
@@ -168,17 +168,17 @@ inline void update_point_rows(const ClosureState<Real>& x, const Vec3<Real>& acc
   rows[2].bias = acceleration.z;
 }
 
-template <ClosureModel Model, class M>
-inline const auto& rows_of(const M& m) {
-  if constexpr (Model == ClosureModel::cut) {
+template <RowStorage Storage>
+inline const auto& rows_of(const Mechanism& m) {
+  if constexpr (Storage == RowStorage::cut) {
     return m.cut_rows;
   } else {
     return m.sde_rows;
   }
 }
-template <ClosureModel Model, class W>
+template <RowStorage Storage, class W>
 inline auto& row_states_of(W& w) {
-  if constexpr (Model == ClosureModel::cut) {
+  if constexpr (Storage == RowStorage::cut) {
     return w.cut_rows;
   } else {
     return w.sde_rows;
@@ -186,23 +186,24 @@ inline auto& row_states_of(W& w) {
 }
 
 // Rows of all closures of one model.
-template <ClosureModel Model, class M, class Real>
-inline void update_rows(const M& m, const Parameters<Real>& p, Workspace<Real, M>& w) {
-  const auto& rows = rows_of<Model>(m);
-  auto& states = row_states_of<Model>(w);
+template <RowStorage Storage, class Real>
+inline void update_rows(const Mechanism& m, const Parameters<Real>& p, Workspace<Real>& w) {
+  const auto& rows = rows_of<Storage>(m);
+  auto& states = row_states_of<Storage>(w);
   const BodyState<Real>* bodies = w.bodies.data();
-  for_closures<Model>(m, [&](auto i) {
+  for (const int i : indices_of(m.closures)) {
     const ClosureStructure& c = at(m.closures, i);
+    if (storage_of(c.model) != Storage) continue;
     ClosureState<Real>& x = at(w.closures, i);
     update_closure_pose(m, c, at(p.closures, i), bodies, x);
     const Vec3<Real> acceleration =
-        Model == ClosureModel::cut ? gap_acceleration(m, c, bodies, x) : zero3<Real>();
+        Storage == RowStorage::cut ? gap_acceleration(m, c, bodies, x) : zero3<Real>();
     if (c.point_rows) update_point_rows(x, acceleration, &at(states, c.row_begin));
-    for_other_rows(m, i, [&](auto r) {
+    for (const int r : other_rows_of(c)) {
       update_row(at(rows, r), x, at(p.closures, i).springs, bodies[c.first], bodies[c.second],
                  acceleration, at(states, r));
-    });
-  });
+    }
+  }
 }
 
 template <class Real>
@@ -227,20 +228,21 @@ inline void add_row_force(const Row& structure, const RowState<Real>& row, Closu
 
 // Sums of value times unit wrench over the rows of every closure of one model, for the bodies and
 // for output.
-template <ClosureModel Model, class M, class Real>
-inline void sum_row_forces(const M& m, Workspace<Real, M>& w) {
-  const auto& rows = rows_of<Model>(m);
-  const auto& states = row_states_of<Model>(w);
-  for_closures<Model>(m, [&](auto i) {
+template <RowStorage Storage, class Real>
+inline void sum_row_forces(const Mechanism& m, Workspace<Real>& w) {
+  const auto& rows = rows_of<Storage>(m);
+  const auto& states = row_states_of<Storage>(w);
+  for (const int i : indices_of(m.closures)) {
     const ClosureStructure& c = at(m.closures, i);
+    if (storage_of(c.model) != Storage) continue;
     ClosureState<Real>& x = at(w.closures, i);
     x.force_points = x.force_second = x.couple = zero3<Real>();
     if (c.point_rows) {
       x.force_points = {at(states, c.row_begin).value, at(states, c.row_begin + 1).value,
                         at(states, c.row_begin + 2).value};
     }
-    for_other_rows(m, i, [&](auto r) { add_row_force(at(rows, r), at(states, r), x); });
-  });
+    for (const int r : other_rows_of(c)) add_row_force(at(rows, r), at(states, r), x);
+  }
 }
 
 // Adds the forces of a clearance's contacts, times -1, to the wrenches that the bodies need.

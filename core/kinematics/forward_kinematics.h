@@ -107,26 +107,26 @@ inline void set_ground(const Parameters<Real>& p, BodyState<Real>& ground) {
   ground.a = Real(-1.0) * p.gravity;
 }
 
-template <class M, class Real>
-inline void update_kinematics(const M& m, const Parameters<Real>& p, const Real* q, const Real* v,
-                              Workspace<Real, M>& w) {
+template <class Real>
+inline void update_kinematics(const Mechanism& m, const Parameters<Real>& p, const Real* q,
+                              const Real* v, Workspace<Real>& w) {
   set_ground(p, at(w.bodies, 0));
-  for_bodies(m, [&](auto b) {
+  for (const int b : bodies_outwards(m)) {
     const Body& body = at(m.bodies, b);
     const BodyParameters<Real>& n = at(p.bodies, b);
-    const auto parent_index = parent_of(m, b);
+    const int parent_index = body.parent;
     const BodyState<Real>& parent = at(w.bodies, parent_index);
     BodyState<Real>& s = at(w.bodies, b);
     Moving<Real> x = start_at_joint_frame(body, n, parent, at(m.bodies, parent_index), s);
-    for_stages(m, b, [&](auto i) {
+    for (const int i : stages_of(body)) {
       const Stage& stage = at(m.stages, i);
       pass_stage(stage, at(p.pitch, i), q + stage.q, v + stage.v, x, &at(w.axes, stage.v));
-    });
+    }
     if (body.shifted) s.shift = s.p - parent.p;
     s.inertia.m = n.mass;
     s.inertia.h = rotate(s.r, n.moment, body.center);
     if (body.rotates) s.inertia.i = world_inertia(body.inertia, n.inertia, s.r);
-  });
+  }
 }
 
 }  // namespace linkstudy

@@ -35,7 +35,7 @@ std::vector<bool> vanishing_rows(const Model& model, const std::vector<double>& 
   const Mechanism& m = model.mechanism;
   const std::vector<double> v(static_cast<std::size_t>(m.nv), 0.0);
   update_kinematics(m, model.parameters, q.data(), v.data(), w);
-  update_rows<ClosureModel::cut>(m, model.parameters, w);
+  update_rows<RowStorage::cut>(m, model.parameters, w);
   const Eigen::MatrixXd j = row_jacobian(m, model.parameters, w, m.cut_rows, w.cut_rows);
   const double limit = kRounding * std::max(1.0, farthest_of(w));
   std::vector<bool> vanishing;

@@ -132,8 +132,8 @@ inline void position_rates(const Stage& stage, const Real* q, const Real* v, Rea
   rate[3] = half * (q[0] * v[2] + q[1] * v[1] - q[2] * v[0]);
 }
 
-template <class M, class Real>
-inline void normalize_quaternions(const M& m, Real* q) {
+template <class Real>
+inline void normalize_quaternions(const Mechanism& m, Real* q) {
   for (int i : m.ball_q) {
     Real* h = q + i;
     const Real square = madd(h[0], h[0], madd(h[1], h[1], madd(h[2], h[2], h[3] * h[3])));
@@ -143,8 +143,8 @@ inline void normalize_quaternions(const M& m, Real* q) {
 }
 
 // q := q + the displacement dq in velocity coordinates; quaternions are normalised.
-template <class M, class Real>
-inline void displace(const M& m, const Real* dq, Real* q) {
+template <class Real>
+inline void displace(const Mechanism& m, const Real* dq, Real* q) {
   for (const Stage& s : m.stages) {
     if (s.motion != BasicMotion::ball) {
       q[s.q] = q[s.q] + dq[s.v];

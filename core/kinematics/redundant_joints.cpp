@@ -60,7 +60,7 @@ std::vector<CarriedRedundancy> find_redundant_joints(const Model& closed, const 
   const Mechanism& m = closed.mechanism;
   Workspace<double> w = make_workspace<double>(m);
   update_kinematics(m, closed.parameters, pose.q.data(), pose.v.data(), w);
-  update_rows<ClosureModel::cut>(m, closed.parameters, w);
+  update_rows<RowStorage::cut>(m, closed.parameters, w);
   const MatrixXd j = compute_scaled_closures(closed, scale, pose).jacobian;
   std::vector<CarriedRedundancy> found;
   const auto add = [&](const std::string& name, int count) {

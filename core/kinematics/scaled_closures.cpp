@@ -36,7 +36,7 @@ ClosureScale find_closure_scale(const Model& closed, const State<double>& s) {
   const Mechanism& m = closed.mechanism;
   Workspace<double> w = make_workspace<double>(m);
   update_kinematics(m, closed.parameters, s.q.data(), s.v.data(), w);
-  update_rows<ClosureModel::cut>(m, closed.parameters, w);
+  update_rows<RowStorage::cut>(m, closed.parameters, w);
   ClosureScale scale{find_extent(closed, w), VectorXd::Ones(m.cut_row_count()),
                      VectorXd::Ones(m.nv)};
   for (std::size_t r = 0; r < m.cut_rows.size(); ++r) {
@@ -56,7 +56,7 @@ ScaledClosures compute_scaled_closures(const Model& closed, const ClosureScale& 
   const Mechanism& m = closed.mechanism;
   Workspace<double> w = make_workspace<double>(m);
   update_kinematics(m, closed.parameters, s.q.data(), s.v.data(), w);
-  update_rows<ClosureModel::cut>(m, closed.parameters, w);
+  update_rows<RowStorage::cut>(m, closed.parameters, w);
   const int rows = m.cut_row_count();
   ScaledClosures c{VectorXd(rows), VectorXd(rows), {}};
   for (int r = 0; r < rows; ++r) {

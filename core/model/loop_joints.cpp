@@ -30,7 +30,7 @@ std::vector<Edge> holding_joints(const Linkage& linkage, const Mechanism& m) {
   }
   for (std::size_t i = 0; i < m.closures.size(); ++i) {
     const ClosureStructure& c = m.closures[i];
-    if (!has_cut_rows(c.model) || c.first == c.second) continue;
+    if (storage_of(c.model) != RowStorage::cut || c.first == c.second) continue;
     edges.push_back({c.first, c.second, {.closure = static_cast<int>(i)}});
   }
   return edges;
@@ -115,7 +115,7 @@ void add_loop_joints(const Linkage& linkage, Mechanism& m) {
     }
   }
   for (std::size_t i = 0; i < m.closures.size(); ++i) {
-    if (!has_cut_rows(m.closures[i].model)) continue;
+    if (storage_of(m.closures[i].model) != RowStorage::cut) continue;
     const auto rows = make_cut_rows(linkage.closures[i], static_cast<int>(i), 0u);
     m.loop_rows.insert(m.loop_rows.end(), rows.begin(), rows.end());
   }

@@ -170,6 +170,13 @@ struct LoadStructure {
 };
 
 // What decides the step loop: cases that agree in it may share one.
+// Which rows a closure has: multipliers or springs. Clearances keep multipliers for the directions
+// that stay blocked.
+enum class RowStorage : std::uint8_t { cut, sde };
+constexpr RowStorage storage_of(ClosureModel model) {
+  return model == ClosureModel::sde ? RowStorage::sde : RowStorage::cut;
+}
+
 struct MechanismStructure {
   int nq = 0;
   int nv = 0;
@@ -200,6 +207,8 @@ struct MechanismStructure {
   int body_count() const { return static_cast<int>(bodies.size()); }
   int cut_row_count() const { return static_cast<int>(cut_rows.size()); }
   int sde_row_count() const { return static_cast<int>(sde_rows.size()); }
+  int contact_count() const { return static_cast<int>(contacts.size()); }
+  int friction_count() const { return static_cast<int>(frictions.size()); }
 };
 
 struct Mechanism : MechanismStructure {

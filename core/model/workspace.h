@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/base/walk.h"
+#include "core/base/indices.h"
 #include "core/model/mechanism.h"
 #include "core/numerics/null_space_fit.h"
 #include "core/numerics/redundant_system.h"
@@ -83,10 +83,10 @@ struct JointFrictionState {
 };
 
 // Scratch and result of reactions in tree joints (core/dynamics/reactions.h).
-template <class Real, int Bodies>
-struct ReactionState {
-  Array<BodyState<Real>, Bodies> moving;  // (nb) bodies with their true accelerations
-  Array<Wrench<Real>, Bodies> on_child;   // (nb), [0] the sum on ground, about its origin
+template <class Real>
+struct Reactions {
+  std::vector<BodyState<Real>> moving;  // (nb) bodies with their true accelerations
+  std::vector<Wrench<Real>> on_child;   // (nb), [0] the sum on ground, about its origin
 };
 
 // One direction of a closure. Unit wrench: `force` on the line of action and `couple`.
@@ -114,67 +114,47 @@ struct SharedReactions {
   std::array<NullSpaceFit, RealTraits<Real>::lanes> fits;
 };
 
-// Numbers of things in a mechanism as far as its type tells them; -1: known when a program runs.
-template <class M>
-struct Counts {
-  static constexpr int bodies = -1, nv = -1, nv_nv = -1, closures = -1, loads = -1, nc = -1,
-                       nc_nv = -1, nc_nc = -1, ns = -1, contacts = -1, frictions = -1, nz = -1,
-                       friction_bodies = -1, friction_nv = -1, friction_square = -1, size = -1;
-};
-
-template <FixedStructure M>
-struct Counts<M> {
-  static constexpr int bodies = M::bodies.size(), nv = M::nv, nv_nv = nv * nv,
-                       closures = M::closures.size(), loads = M::loads.size(),
-                       nc = M::cut_rows.size(), nc_nv = nc * nv, nc_nc = nc * nc,
-                       ns = M::sde_rows.size(), contacts = M::contacts.size(),
-                       frictions = M::frictions.size(), nz = M::nz,
-                       friction_bodies = frictions > 0 ? bodies : 0,
-                       friction_nv = frictions > 0 ? nv : 0,
-                       friction_square = frictions * frictions,
-                       size = M::nq + nv + nz + 2;  // of a state's record
-};
-
-template <class Real, class M = Mechanism>
+template <class Real>
 struct Workspace {
-  using N = Counts<M>;
-  Array<BodyState<Real>, N::bodies> bodies;  // (nb)
-  Array<Vec3<Real>, N::nv> axes;             // (nv) axis of each velocity, ground axes
-  Array<ClosureState<Real>, N::closures> closures;
-  Array<Real, N::nv_nv> mass;                // (nv, nv) lower: mass matrix, then its factor L
-  Array<Real, N::nv> inverse_pivot;          // (nv) 1 / D
-  Array<Real, N::nv> tau;                    // (nv) generalised forces less bias
-  Array<Real, N::nv> y;                      // (nv) L^-T tau
-  Array<Real, N::nv> qdd;                    // (nv)
-  Array<Wrench<Real>, N::loads> link_loads;  // (loads) about the body's origin
-  Array<RowState<Real>, N::nc> cut_rows;     // (nc)
-  Array<RowState<Real>, N::ns> sde_rows;     // (ns)
-  Array<Real, N::nc_nv> cut_y;               // (nc, nv) L^-T J^T, by row
-  Array<Real, N::nc_nc> schur;               // (nc, nc) J M^-1 J^T, then its factor
-  Array<Real, N::nc> schur_rhs;              // (nc)
-  Array<Real, N::nc> row_inverse;            // (nc) 1 / pivot of the factor
-  Array<ContactState<Real>, N::contacts> contacts;
-  Array<ContactMemory<Real>, N::contacts> memory;
-  Array<JointFrictionState<Real>, N::frictions> frictions;
-  Array<Real, N::friction_nv> friction_tau;           // (nv) of joints with friction
-  Array<Real, N::friction_square> friction_inverse;   // of d gap / d load, negative
-  Array<Real, N::nz> z;                               // (nz) bristles: set before an evaluation
-  Array<Real, N::nz> z_rate;                          // (nz)
-  ReactionState<Real, N::friction_bodies> reactions;  // where joints have friction
-  Real supplied_power = Real(0.0);                    // W
-  Real dissipated_power = Real(0.0);                  // W
+  std::vector<BodyState<Real>> bodies;  // (nb)
+  std::vector<Vec3<Real>> axes;         // (nv) axis of each velocity, ground axes
+  std::vector<ClosureState<Real>> closures;
+  std::vector<Real> mass;                // (nv, nv) lower: mass matrix, then its factor L
+  std::vector<Real> inverse_pivot;       // (nv) 1 / D
+  std::vector<Real> tau;                 // (nv) generalised forces less bias
+  std::vector<Real> y;                   // (nv) L^-T tau
+  std::vector<Real> qdd;                 // (nv)
+  std::vector<Wrench<Real>> link_loads;  // (loads) about the body's origin
+  std::vector<RowState<Real>> cut_rows;  // (nc)
+  std::vector<RowState<Real>> sde_rows;  // (ns)
+  std::vector<Real> cut_y;               // (nc, nv) L^-T J^T, by row
+  std::vector<Real> schur;               // (nc, nc) J M^-1 J^T, then its factor
+  std::vector<Real> schur_rhs;           // (nc)
+  std::vector<Real> row_inverse;         // (nc) 1 / pivot of the factor
+  std::vector<ContactState<Real>> contacts;
+  std::vector<ContactMemory<Real>> memory;
+  std::vector<JointFrictionState<Real>> frictions;
+  std::vector<Real> friction_tau;      // (nv) of joints with friction
+  std::vector<Real> friction_inverse;  // of d gap / d load, negative
+  std::vector<Real> z;                 // (nz) bristles: set before an evaluation
+  std::vector<Real> z_rate;            // (nz)
+  Reactions<Real> reactions;           // where joints have friction
+  Real supplied_power = Real(0.0);     // W
+  Real dissipated_power = Real(0.0);   // W
   // Lanes, one bit each, whose cut rows depend on each other or nearly, so that `schur` holds no
   // factor of theirs; and the number of independent rows, in each lane its own.
   unsigned redundant = 0;
   Real kept_rows = Real(0.0);
   unsigned jammed = 0;  // lanes whose joint friction found no balance with the reactions
-  // For these lanes (core/closures/redundant_rows.h); a fixed structure leaves them to others.
-  static constexpr bool copes = !FixedStructure<M>;
-  Array<Real, copes ? -1 : 0> cut_jacobian;    // (nc, nv) J
-  Array<Real, copes ? -1 : 0> row_scale;       // (nc) m or 1
-  Array<Real, copes ? -1 : 0> velocity_scale;  // (nv) 1 or 1/m
-  std::array<RedundantSystem, copes ? RealTraits<Real>::lanes : 0> redundant_systems;
-  Array<SharedReactions<Real>, copes ? -1 : 0> shared;  // one, where joint friction needs it
+  // For these lanes (core/closures/redundant_rows.h).
+  std::vector<Real> cut_jacobian;  // (nc, nv) J
+  std::vector<Real> row_scale;     // (nc) m or 1
+  // Scratch of core/closures/clear_rows.h.
+  std::vector<Real> independence;          // (nc, nc)
+  std::vector<Real> independence_inverse;  // (nc)
+  std::vector<Real> velocity_scale;        // (nv) 1 or 1/m
+  std::array<RedundantSystem, RealTraits<Real>::lanes> redundant_systems;
+  std::vector<SharedReactions<Real>> shared;  // one, where joint friction needs it
 };
 
 // Ground axes are constant: their unit forces are set here and never written again.
@@ -216,16 +196,6 @@ std::vector<SharedReactions<Real>> make_shared_reactions(const Mechanism& m) {
 }
 
 // Everything zero, and the ground axes set.
-template <class Real, FixedStructure M>
-inline Workspace<Real, M> make_workspace(const M& m) {
-  Workspace<Real, M> w{};
-  for_range(Index<0>(), Index<Counts<M>::nc>(),
-            [&](auto r) { set_ground_axis(at(m.cut_rows, r), at(w.cut_rows, r)); });
-  for_range(Index<0>(), Index<Counts<M>::ns>(),
-            [&](auto r) { set_ground_axis(at(m.sde_rows, r), at(w.sde_rows, r)); });
-  return w;
-}
-
 template <class Real>
 Workspace<Real> make_workspace(const Mechanism& m) {
   const auto nv = static_cast<std::size_t>(m.nv);
@@ -252,6 +222,8 @@ Workspace<Real> make_workspace(const Mechanism& m) {
   w.cut_y.assign(nc * nv, Real(0.0));
   w.schur.assign(nc * nc, Real(0.0));
   w.cut_jacobian.assign(nc * nv, Real(0.0));
+  w.independence.assign(nc * nc, Real(0.0));
+  w.independence_inverse.assign(nc, Real(0.0));
   w.schur_rhs.assign(nc, Real(0.0));
   w.row_inverse.assign(nc, Real(1.0));
   w.row_scale.assign(nc, Real(1.0));

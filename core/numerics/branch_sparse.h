@@ -5,8 +5,8 @@
 // Algorithms, sec. 6.5]).
 #pragma once
 
+#include "core/base/indices.h"
 #include "core/base/real.h"
-#include "core/base/walk.h"
 
 namespace linkstudy {
 
@@ -14,33 +14,33 @@ namespace linkstudy {
 template <class Tree, class Real>
 inline void factorize_branch_sparse(const Tree& tree, Real* h, Real* inverse_pivot) {
   const int n = tree.nv;
-  for_velocities_down(tree, [&](auto k) {
+  for (const int k : velocities_down(tree)) {
     const Real inverse = Real(1.0) / h[k * n + k];
     inverse_pivot[k] = inverse;
-    for_ancestors(tree, k, [&](auto i) {
+    for (const int i : ancestors(tree, k)) {
       const Real a = h[k * n + i] * inverse;
-      for_path(tree, i, [&](auto j) { h[i * n + j] = nmadd(a, h[k * n + j], h[i * n + j]); });
+      for (const int j : path(tree, i)) h[i * n + j] = nmadd(a, h[k * n + j], h[i * n + j]);
       h[k * n + i] = a;
-    });
-  });
+    }
+  }
 }
 
 // x := L^-T x
 template <class Tree, class Real>
 inline void solve_branch_transposed(const Tree& tree, const Real* h, Real* x) {
   const int n = tree.nv;
-  for_velocities_down(tree, [&](auto k) {
-    for_ancestors(tree, k, [&](auto i) { x[i] = nmadd(h[k * n + i], x[k], x[i]); });
-  });
+  for (const int k : velocities_down(tree)) {
+    for (const int i : ancestors(tree, k)) x[i] = nmadd(h[k * n + i], x[k], x[i]);
+  }
 }
 
 // x := L^-1 x
 template <class Tree, class Real>
 inline void solve_branch(const Tree& tree, const Real* h, Real* x) {
   const int n = tree.nv;
-  for_velocities(tree, [&](auto k) {
-    for_ancestors(tree, k, [&](auto i) { x[k] = nmadd(h[k * n + i], x[i], x[k]); });
-  });
+  for (const int k : velocities(tree)) {
+    for (const int i : ancestors(tree, k)) x[k] = nmadd(h[k * n + i], x[i], x[k]);
+  }
 }
 
 }  // namespace linkstudy

@@ -4,12 +4,13 @@
 // operations that wait for each other, not three, and as exact for a matrix with such a margin.
 #pragma once
 
+#include "core/base/indices.h"
 #include "core/base/real.h"
-#include "core/base/walk.h"
 
 namespace linkstudy {
 
-// n is an int, or a std::integral_constant where the size is known to the compiler.
+// A size that the compiler knows; other sizes are int.
+using Three = std::integral_constant<int, 3>;
 
 namespace detail {
 
@@ -46,47 +47,53 @@ inline void apply_symmetric_3(const Real* a, Real* b) {
 }  // namespace detail
 
 // Overwrites the strict lower triangle of A with L; inverse[i] is 1 / D_i. True in the lanes where
-// every pivot is more than `margin` times the largest diagonal of A; other lanes hold no factor.
-template <class Size, class Real>
-inline auto factorize_definite(Size n, Real margin, Real* a, Real* inverse) {
-  if constexpr (std::is_same_v<Size, Index<3>>) {
-    return detail::invert_definite_3(margin, a);
-  }
+// every pivot D_i is more than limit(i); other lanes hold no factor.
+template <class Real, class Limit>
+inline auto factorize_above(int n, const Limit& limit, Real* a, Real* inverse) {
   const Real one(1.0);
-  Real largest(0.0);
-  for_range(Index<0>(), n, [&](auto j) { largest = max(largest, a[j * n + j]); });
-  const Real limit = margin * largest;
   auto definite = one > Real(0.0);
-  for_range(Index<0>(), n, [&](auto j) {
+  for (const int j : indices(n)) {
     Real pivot = a[j * n + j];
-    for_range(Index<0>(), j,
-              [&](auto k) { pivot = nmadd(a[j * n + k] * a[j * n + k], a[k * n + k], pivot); });
-    const auto clear = pivot > limit;
+    for (const int k : indices(j)) pivot = nmadd(a[j * n + k] * a[j * n + k], a[k * n + k], pivot);
+    const auto clear = pivot > limit(j);
     definite = definite && clear;
     a[j * n + j] = select(clear, pivot, one);
     inverse[j] = one / a[j * n + j];
-    for_range(successor(j), n, [&](auto i) {
+    for (const int i : indices(j + 1, n)) {
       Real x = a[i * n + j];
-      for_range(Index<0>(), j,
-                [&](auto k) { x = nmadd(a[i * n + k] * a[j * n + k], a[k * n + k], x); });
+      for (const int k : indices(j)) x = nmadd(a[i * n + k] * a[j * n + k], a[k * n + k], x);
       a[i * n + j] = x * inverse[j];
-    });
-  });
+    }
+  }
   return definite;
+}
+
+// The same with all limits `margin` times the largest diagonal of A.
+template <class Size, class Real>
+inline auto factorize_definite(Size n, Real margin, Real* a, Real* inverse) {
+  if constexpr (std::is_same_v<Size, Three>) {
+    return detail::invert_definite_3(margin, a);
+  } else {
+    Real largest(0.0);
+    for (const int j : indices(n)) largest = max(largest, a[j * n + j]);
+    const Real limit = margin * largest;
+    return factorize_above(
+        n, [limit](int) { return limit; }, a, inverse);
+  }
 }
 
 // b := A^-1 b
 template <class Size, class Real>
 inline void solve_definite(Size n, const Real* l, const Real* inverse, Real* b) {
-  if constexpr (std::is_same_v<Size, Index<3>>) return detail::apply_symmetric_3(l, b);
-  for_range(Index<0>(), n, [&](auto i) {
-    for_range(Index<0>(), i, [&](auto k) { b[i] = nmadd(l[i * n + k], b[k], b[i]); });
-  });
-  for_range_down(Index<0>(), n, [&](auto i) {
+  if constexpr (std::is_same_v<Size, Three>) return detail::apply_symmetric_3(l, b);
+  for (const int i : indices(n)) {
+    for (const int k : indices(i)) b[i] = nmadd(l[i * n + k], b[k], b[i]);
+  }
+  for (const int i : indices_down(n)) {
     Real x = b[i] * inverse[i];
-    for_range(successor(i), n, [&](auto k) { x = nmadd(l[k * n + i], b[k], x); });
+    for (const int k : indices(i + 1, n)) x = nmadd(l[k * n + i], b[k], x);
     b[i] = x;
-  });
+  }
 }
 
 }  // namespace linkstudy

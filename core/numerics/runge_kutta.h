@@ -6,9 +6,10 @@
 
 #include <array>
 #include <cstddef>
+#include <utility>
+#include <vector>
 
 #include "core/base/real.h"
-#include "core/base/walk.h"
 
 namespace linkstudy {
 
@@ -22,15 +23,11 @@ struct ClassicalRungeKutta {
   static constexpr std::array<double, 4> c{0.0, 0.5, 0.5, 1.0};
 };
 
-// Size: number of unknowns if the type tells it, or -1.
-template <class Tableau, class Real, int Size = -1>
+template <class Tableau, class Real>
 class RungeKutta {
  public:
-  explicit RungeKutta(std::size_t n) {
-    if constexpr (Size < 0) {
-      stage_.resize(n);
-      for (auto& k : slopes_) k.assign(n, Real(0.0));
-    }
+  explicit RungeKutta(std::size_t n) : stage_(n) {
+    for (auto& k : slopes_) k.assign(n, Real(0.0));
   }
 
   Real* first_slope() { return slopes_[0].data(); }
@@ -38,37 +35,39 @@ class RungeKutta {
   // f(t, y, dy) writes dy; first_slope() must hold f(t, y).
   template <class F>
   void advance(Real t, Real h, Real* y, F&& f) {
-    for_range(Index<1>(), Index<Tableau::stages>(), [&](auto i) {
-      constexpr auto row = static_cast<std::size_t>(i());
-      combine<i()>(Tableau::a[row], h, y, stage_.data());
-      f(t + Real(Tableau::c[row]) * h, stage_.data(), slopes_[row].data());
-    });
+    advance_stages(t, h, y, f, std::make_index_sequence<Tableau::stages - 1>());
     combine<Tableau::stages>(Tableau::b, h, y, y);
   }
 
  private:
+  template <class F, std::size_t... Row>
+  void advance_stages(Real t, Real h, const Real* y, F& f, std::index_sequence<Row...>) {
+    (advance_stage<Row + 1>(t, h, y, f), ...);
+  }
+
+  template <std::size_t Row, class F>
+  void advance_stage(Real t, Real h, const Real* y, F& f) {
+    combine<Row>(Tableau::a[Row], h, y, stage_.data());
+    f(t + Real(Tableau::c[Row]) * h, stage_.data(), slopes_[Row].data());
+  }
+
   // out = y + h sum of the first slopes, zero weights skipped
-  template <int Count>
+  template <std::size_t Count>
   void combine(const std::array<double, Tableau::stages>& weights, Real h, const Real* y,
                Real* out) const {
-    std::array<Real, Tableau::stages> steps;
-    for_range(Index<0>(), Index<Count>(), [&](auto i) { at(steps, i) = h * Real(at(weights, i)); });
-    const auto add_slopes = [&](auto j) {
+    std::array<Real, Count> steps;
+    for (std::size_t i = 0; i < Count; ++i) steps[i] = h * Real(weights[i]);
+    for (std::size_t j = 0; j < stage_.size(); ++j) {
       Real x = y[j];
-      for_range(Index<0>(), Index<Count>(), [&](auto i) {
-        if (at(weights, i) != 0.0) x = madd(at(steps, i), at(slopes_[i()], j), x);
-      });
+      for (std::size_t i = 0; i < Count; ++i) {
+        if (weights[i] != 0.0) x = madd(steps[i], slopes_[i].data()[j], x);
+      }
       out[j] = x;
-    };
-    if constexpr (Size < 0) {
-      for_range(0, static_cast<int>(stage_.size()), add_slopes);
-    } else {
-      for_range(Index<0>(), Index<Size>(), add_slopes);
     }
   }
 
-  Array<Real, Size> stage_;
-  std::array<Array<Real, Size>, Tableau::stages> slopes_{};
+  std::vector<Real> stage_;
+  std::array<std::vector<Real>, Tableau::stages> slopes_{};
 };
 
 }  // namespace linkstudy

@@ -10,13 +10,13 @@ namespace linkstudy {
 
 template <class Isa, int Lanes>
 void run_general(const Mechanism& m, const KernelRun& setting, const LaneCase* cases, int count) {
-  Run<Pack<Lanes, Isa>, Mechanism>(m, setting, cases, count).run();
+  Run<Pack<Lanes, Isa>>(m, setting, cases, count).run();
 }
 
 template <class Isa>
 constexpr std::array<Kernel, 2> general_kernels(InstructionSet isa) {
-  return {{{isa, 1, nullptr, run_general<Isa, 1>},
-           {isa, Isa::lanes, nullptr, run_general<Isa, Isa::lanes>}}};
+  return {{{isa, 1, run_general<Isa, 1>},
+           {isa, Isa::lanes, run_general<Isa, Isa::lanes>}}};
 }
 
 }  // namespace linkstudy

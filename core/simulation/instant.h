@@ -12,13 +12,13 @@ namespace linkstudy {
 
 // Values of one instant from which channels are read. Reactions, accelerations of bodies and
 // energies are computed when a channel first asks for them. Reactions are shared where the
-// mechanism has loop_joints; fixed structures have none.
-template <class Real, class M = Mechanism>
+// mechanism has loop_joints.
+template <class Real>
 class Instant {
  public:
-  Instant(const M& m, const Parameters<Real>& p, const Workspace<Real, M>& w)
+  Instant(const Mechanism& m, const Parameters<Real>& p, const Workspace<Real>& w)
       : m_(m), p_(p), w_(w), reactions_(make_reactions<Real>(m)) {
-    if constexpr (!FixedStructure<M>) shared_ = make_shared_reactions<Real>(m);
+    shared_ = make_shared_reactions<Real>(m);
   }
 
   // y: q (nq), v (nv), z (nz), supplied, dissipated; w must hold the evaluation at (t, y).
@@ -96,11 +96,9 @@ class Instant {
 
   ClosureWrench<Real> closure_wrench(int c) {
     ClosureWrench<Real> f = own_closure_wrench(c);
-    if constexpr (!FixedStructure<M>) {
-      if (shared_.empty()) return f;
-      update_all_reactions();
-      add_shared(m_, c, shared_.front(), f);
-    }
+    if (shared_.empty()) return f;
+    update_all_reactions();
+    add_shared(m_, c, shared_.front(), f);
     return f;
   }
 
@@ -155,11 +153,9 @@ class Instant {
   void update_all_reactions() {
     if (has_reactions_) return;
     update_reactions(m_, p_, w_, reactions_);
-    if constexpr (!FixedStructure<M>) {
-      if (!shared_.empty()) {
-        update_self_stresses(m_, p_, w_, shared_.front());
-        share_reactions(m_, w_, reactions_, shared_.front());
-      }
+    if (!shared_.empty()) {
+      update_self_stresses(m_, p_, w_, shared_.front());
+      share_reactions(m_, w_, reactions_, shared_.front());
     }
     has_reactions_ = has_accelerations_ = true;
   }
@@ -176,13 +172,13 @@ class Instant {
     return component(local ? transpose_times(b.r, ground) : ground, c.component);
   }
 
-  const M& m_;
+  const Mechanism& m_;
   const Parameters<Real>& p_;
-  const Workspace<Real, M>& w_;
+  const Workspace<Real>& w_;
   Real t_ = Real(0.0);
   const Real* y_ = nullptr;
-  Reactions<Real, M> reactions_;
-  Array<SharedReactions<Real>, FixedStructure<M> ? 0 : -1> shared_;  // one, or none
+  Reactions<Real> reactions_;
+  std::vector<SharedReactions<Real>> shared_;  // one, or none
   Energy<Real> energy_{};
   Real initial_energy_ = Real(0.0);
   bool has_reactions_ = false;

@@ -14,7 +14,6 @@ namespace linkstudy {
 // How the run of one lane ended.
 struct LaneEnd {
   Cause cause = Cause::ok;
-  bool abandoned = false;  // rows became dependent where the kernel takes them as independent
   bool redundant = false;  // cut rows were dependent at some instant
   int least_rank = -1;     // of the cut rows, over the steps
   int greatest_rank = -1;
@@ -68,7 +67,6 @@ struct KernelRun {
 struct Kernel {
   InstructionSet isa;
   int lanes;
-  bool (*serves)(const Mechanism&);  // null: every mechanism
   void (*run)(const Mechanism&, const KernelRun&, const LaneCase* cases, int count);
 };
 

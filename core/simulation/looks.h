@@ -14,14 +14,12 @@ inline constexpr double kNoApproach = -1.0;
 
 // Rows: even ones, one a joint with friction (largest load), two a contact (largest force, largest
 // damping).
-template <class M>
-inline int look_count(const M& m) {
-  return kEvenLooks + friction_count(m) + 2 * contact_count(m);
+[[gnu::always_inline]] inline int look_count(const Mechanism& m) {
+  return kEvenLooks + m.friction_count() + 2 * m.contact_count();
 }
 
-template <class M>
-inline int look_size(const M& m) {
-  return 1 + state_size(m) + contact_count(m);
+[[gnu::always_inline]] inline int look_size(const Mechanism& m) {
+  return 1 + state_size(m) + m.contact_count();
 }
 
 }  // namespace linkstudy

@@ -1,7 +1,6 @@
 // One run of a pack of cases: constant steps of the classical Runge-Kutta method, observers at
 // every accepted state, and a typed cause at the end of each lane. A lane that has ended, or has no
 // case, is set back to its start after every step: nothing grows there, and nothing of it is kept.
-// M is Mechanism, or a type with the structure in it (core/base/walk.h).
 #pragma once
 
 #include "core/base/flush_denormals.h"
@@ -18,12 +17,12 @@ namespace linkstudy {
 
 inline constexpr long kStepsBetweenPolls = 256;
 
-template <class Real, class M>
+template <class Real>
 class Run {
  public:
   static constexpr int lanes = RealTraits<Real>::lanes;
 
-  Run(const M& m, const KernelRun& setting, const LaneCase* cases, int count)
+  Run(const Mechanism& m, const KernelRun& setting, const LaneCase* cases, int count)
       : m_(m),
         setting_(setting),
         cases_(cases),
@@ -38,11 +37,9 @@ class Run {
         checks_(m_, p_),
         watch_(m_, p_, cases, count, setting.count),
         written_(setting.code) {
-    if constexpr (!FixedStructure<M>) {
-      y_.resize(static_cast<std::size_t>(size_));
-      correction_.resize(static_cast<std::size_t>(m.nv));
-      contact_steps_.resize(m.contacts.size());
-    }
+    y_.resize(static_cast<std::size_t>(size_));
+    correction_.resize(static_cast<std::size_t>(m.nv));
+    contact_steps_.resize(m.contacts.size());
     for (int i = 0; i < lanes; ++i) reset(i);
     if (setting.code) written_.start(setting.h, setting.drift_limit, p_);
   }
@@ -51,10 +48,8 @@ class Run {
     const FlushDenormals flush;
     for (step_ = 0;; ++step_) {
       const double t = time();
-      if constexpr (!FixedStructure<M>) {
-        if (is_quiet() && step_by_code(t)) continue;
-      }
-      if (step_ == 0 && contact_count(m_) > 0) {
+      if (is_quiet() && step_by_code(t)) continue;
+      if (step_ == 0 && m_.contact_count() > 0) {
         differentiate_kept(t);
         begin_contact_memory(m_, w_);
       }
@@ -69,7 +64,7 @@ class Run {
           step_, [this](int, std::size_t, const Channel& channel) { return now_.sample(channel); });
       if (step_ == setting_.count) break;
       if (step_ % kStepsBetweenPolls == 0 && interrupted(t)) return;
-      if (contact_count(m_) > 0) {
+      if (m_.contact_count() > 0) {
         update_contact_memory(m_, w_, contact_steps_.data(), bristles(), contact_log_);
       }
       rk_.advance(Real(t), Real(setting_.h), y_.data(),
@@ -83,10 +78,9 @@ class Run {
  private:
   double time() const { return setting_.t0 + static_cast<double>(step_) * setting_.h; }
 
-  void evaluate_into(Workspace<Real, M>& w, Real t, const Real* y, Real* slope) {
+  void evaluate_into(Workspace<Real>& w, Real t, const Real* y, Real* slope) {
     evaluate_state(m_, p_, t, y, w);
     write_slopes(m_, y, w, slope);
-    redundant_ |= w.redundant;
   }
 
   // Leaves everything in the workspace for observers.
@@ -94,20 +88,12 @@ class Run {
     evaluate_into(w_, Real(t), y_.data(), rk_.first_slope());
   }
 
-  // A workspace of its own lives in registers as far as they go where the structure is fixed.
   [[gnu::noinline, gnu::flatten]] void differentiate(Real t, const Real* q, Real* slope) {
-    if constexpr (FixedStructure<M>) {
-      Workspace<Real, M> w = make_workspace<Real>(m_);
-      w.memory = w_.memory;
-      evaluate_into(w, t, q, slope);
-    } else {
-      evaluate_into(w_, t, q, slope);
-    }
+    evaluate_into(w_, t, q, slope);
   }
 
   [[gnu::flatten]] void finish_step() {
     settle_state(m_, p_, y_.data(), correction_.data(), w_);
-    redundant_ |= w_.redundant;
   }
 
   // Nothing happens in a step but the step itself, as far as can be said beforehand.
@@ -121,10 +107,10 @@ class Run {
   [[gnu::noinline]] bool step_by_code(double t) {
     written_.read(t, now_.initial_energy(), [this](auto&& f) { for_state(f); });
     if (!written_.run(active_)) return false;
-    if (bristle_count(m_) > 0 && (lane_bits(watch_.bristles_hold(bristles())) & active_) != active_)
+    if (m_.nz > 0 && (lane_bits(watch_.bristles_hold(bristles())) & active_) != active_)
       return false;
     written_.write_kept(w_);
-    checks_.see_rank(Real(1.0) > Real(0.0), Real(static_cast<double>(cut_row_count(m_))));
+    checks_.see_rank(Real(1.0) > Real(0.0), Real(static_cast<double>(m_.cut_row_count())));
     watch_.see(step_, t, y_.data(), w_, active_);
     observers_.observe(step_, [this](int observer, std::size_t i, const Channel&) {
       return written_.observed(observer, i);
@@ -144,7 +130,6 @@ class Run {
     const auto moving = checks_.moves(m_, y_.data(), w_);
     const auto closed = checks_.is_closed(m_, w_, Real(setting_.drift_limit));
     checks_.see_rank(moving, w_.kept_rows);
-    if constexpr (FixedStructure<M>) abandon_lanes(active_ & redundant_);
     end_lanes(active_ & ~lane_bits(moving), Cause::diverged);
     end_lanes(active_ & ~lane_bits(closed), Cause::constraint_drift);
     // Bristles bent beyond their law jam joints, too.
@@ -168,16 +153,10 @@ class Run {
       if ((ending & 1u) != 0) end_lane(i, cause);
   }
 
-  void abandon_lanes(unsigned ending) {
-    for (int i = 0; i < count_; ++i)
-      if ((ending >> i & 1u) != 0) cases_[i].end->abandoned = true;
-    end_lanes(ending, Cause::ok);
-  }
-
   void end_lane(int i, Cause cause) {
     LaneEnd& end = *cases_[i].end;
     end.cause = cause;
-    checks_.store(i, cut_row_count(m_), end);
+    checks_.store(i, m_.cut_row_count(), end);
     watch_.store(i, end);
     end.steps = step_;
     end.contacts = lane(contact_log_.begun, i);
@@ -196,7 +175,7 @@ class Run {
   void reset(int i) {
     const LaneCase& c = cases_[i < count_ ? i : count_ - 1];
     for (int k = 0; k < size_; ++k) set_lane(at(y_, k), i, c.y[k]);
-    for_all_contacts(m_, [&](auto n) { set_contact(n, i, fresh_contact<double>()); });
+    for (const int n : indices_of(m_.contacts)) set_contact(n, i, fresh_contact<double>());
   }
 
   void set_contact(int contact, int i, const ContactMemory<double>& from) {
@@ -211,26 +190,24 @@ class Run {
 
   Real* bristles() { return y_.data() + m_.nq + m_.nv; }
 
-  using N = Counts<M>;
-  const M& m_;
+  const Mechanism& m_;
   const KernelRun& setting_;
   const LaneCase* cases_;
   int count_;
   unsigned active_;         // lanes still running, one bit each
-  unsigned redundant_ = 0;  // lanes whose rows were dependent or nearly
   long step_ = 0;
   Parameters<Real> p_;
   int size_;
-  Array<Real, N::size> y_;  // core/simulation/run_state.h
-  Array<Real, N::nv> correction_;
-  Array<Real, N::contacts> contact_steps_;  // states in the present contact
+  std::vector<Real> y_;  // core/simulation/run_state.h
+  std::vector<Real> correction_;
+  std::vector<Real> contact_steps_;  // states in the present contact
   ContactLog<Real> contact_log_;
   LaneObservers<Real> observers_;
-  Workspace<Real, M> w_;
-  RungeKutta<ClassicalRungeKutta, Real, N::size> rk_;
-  Instant<Real, M> now_;
+  Workspace<Real> w_;
+  RungeKutta<ClassicalRungeKutta, Real> rk_;
+  Instant<Real> now_;
   RunChecks<Real> checks_;
-  StepWatch<Real, M> watch_;
+  StepWatch<Real> watch_;
   WrittenLanes<Real> written_;
 };
 

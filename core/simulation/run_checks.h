@@ -22,31 +22,29 @@ class RunChecks {
  public:
   using Mask = typename RealTraits<Real>::Mask;
 
-  template <class M>
-  RunChecks(const M& m, const Parameters<Real>& p) {
-    for_bodies(m, [&](auto b) { mass_ = mass_ + at(p.bodies, b).mass; });
+  RunChecks(const Mechanism& m, const Parameters<Real>& p) {
+    for (const int b : bodies_outwards(m)) mass_ = mass_ + at(p.bodies, b).mass;
   }
 
   // Of the state y (run_state.h) and the accelerations in w.
-  template <class M>
-  Mask moves(const M& m, const Real* y, const Workspace<Real, M>& w) const {
+  Mask moves(const Mechanism& m, const Real* y, const Workspace<Real>& w) const {
     const Real* v = y + m.nq;
     Real fastest(0.0), sum(0.0);
-    for_velocities(m, [&](auto k) {
+    for (const int k : velocities(m)) {
       fastest = max(fastest, abs(v[k]));
       sum = sum + (abs(v[k]) + abs(at(w.qdd, k)));
-    });
-    for_range(Index<0>(), bristle_count(m), [&](auto i) { sum = sum + abs(v[m.nv + i]); });
+    }
+    for (const int i : indices(m.nz)) sum = sum + abs(v[m.nv + i]);
     // A lost velocity is not a number, which is not below anything.
     return fastest < Real(kFastest) && is_finite(sum);
   }
 
   // Of the gaps in the cut rows of w.
-  template <class M>
-  Mask is_closed(const M& m, const Workspace<Real, M>& w, Real limit) {
+  Mask is_closed(const Mechanism& m, const Workspace<Real>& w, Real limit) {
     Real square(0.0);
-    for_range(Index<0>(), cut_row_count(m),
-              [&](auto r) { square = madd(at(w.cut_rows, r).d, at(w.cut_rows, r).d, square); });
+    for (const int r : indices(m.cut_row_count())) {
+      square = madd(at(w.cut_rows, r).d, at(w.cut_rows, r).d, square);
+    }
     const Real drift = sqrt(square);
     drift_max_ = select(drift > drift_max_, drift, drift_max_);
     return drift <= limit;
@@ -61,16 +59,14 @@ class RunChecks {
     greatest_rank_ = select(counts && rank > greatest_rank_, rank, greatest_rank_);
   }
 
-  template <class M>
-  void start_ledger(Instant<Real, M>& now) {
+  void start_ledger(Instant<Real>& now) {
     initial_ = now.energy();
     initial_supplied_ = now.supplied();
     now.set_initial_energy(initial_.kinetic + initial_.potential() - now.supplied() +
                            now.dissipated());
   }
 
-  template <class M>
-  Mask balances(Instant<Real, M>& now) {
+  Mask balances(Instant<Real>& now) {
     const Energy<Real> e = now.energy();
     const Real residual = abs(now.residual());
     const Real supplied = abs(now.supplied() - initial_supplied_);

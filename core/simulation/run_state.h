@@ -12,38 +12,37 @@ namespace linkstudy {
 // Supplied, dissipated (J): nothing depends on them.
 inline constexpr int kPowers = 2;
 
-template <class M>
-inline int state_size(const M& m) {
+[[gnu::always_inline]] inline int state_size(const Mechanism& m) {
   return m.nq + m.nv + m.nz + kPowers;
 }
 
 // The equations of motion at (t, y).
-template <class M, class Real>
-inline void evaluate_state(const M& m, const Parameters<Real>& p, Real t, const Real* y,
-                           Workspace<Real, M>& w) {
+template <class Real>
+inline void evaluate_state(const Mechanism& m, const Parameters<Real>& p, Real t, const Real* y,
+                           Workspace<Real>& w) {
   const Real* v = y + m.nq;
-  for_range(Index<0>(), bristle_count(m), [&](auto i) { at(w.z, i) = v[m.nv + i]; });
+  for (const int i : indices(m.nz)) at(w.z, i) = v[m.nv + i];
   evaluate(m, p, t, y, v, w);
 }
 
 // dy/dt, from the evaluation at y.
-template <class M, class Real>
-inline void write_slopes(const M& m, const Real* y, const Workspace<Real, M>& w, Real* slope) {
-  for_all_stages(m, [&](auto i) {
+template <class Real>
+inline void write_slopes(const Mechanism& m, const Real* y, const Workspace<Real>& w, Real* slope) {
+  for (const int i : indices_of(m.stages)) {
     const Stage& s = at(m.stages, i);
     position_rates(s, y + s.q, y + m.nq + s.v, slope + s.q);
-  });
+  }
   Real* rest = slope + m.nq;
-  for_velocities(m, [&](auto k) { rest[k] = at(w.qdd, k); });
-  for_range(Index<0>(), bristle_count(m), [&](auto i) { rest[m.nv + i] = at(w.z_rate, i); });
+  for (const int k : velocities(m)) rest[k] = at(w.qdd, k);
+  for (const int i : indices(m.nz)) rest[m.nv + i] = at(w.z_rate, i);
   rest[m.nv + m.nz] = w.supplied_power;
   rest[m.nv + m.nz + 1] = w.dissipated_power;
 }
 
 // Leaves in w what the projection has found; correction (nv) is scratch.
-template <class M, class Real>
-inline void settle_state(const M& m, const Parameters<Real>& p, Real* y, Real* correction,
-                         Workspace<Real, M>& w) {
+template <class Real>
+inline void settle_state(const Mechanism& m, const Parameters<Real>& p, Real* y, Real* correction,
+                         Workspace<Real>& w) {
   if (!m.ball_q.empty()) normalize_quaternions(m, y);
   if (!m.projects) return;
   update_factored_mass_matrix(m, p, Real(0.0), y, y + m.nq, w);

@@ -1,7 +1,6 @@
 #include "core/simulation/simulate.h"
 
 #include <algorithm>
-#include <bit>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -10,7 +9,7 @@
 #include "core/simulation/kernels.h"
 #include "core/simulation/located_run.h"
 #include "core/simulation/looks.h"
-#include "core/simulation/written_steps.h"
+#include "core/simulation/pack_code.h"
 
 namespace linkstudy {
 namespace {
@@ -89,7 +88,7 @@ class Packed {
   std::span<const LaneCase> lanes() const { return lanes_; }
 
   void run(const SimulationOptions& options, Watch& watch, const Kernel& kernel,
-           const StepCode* code = nullptr) {
+           const StepCode* code) {
     KernelRun setting = setting_of(options, watch);
     setting.code = code;
     kernel.run(m_, setting, lanes_.data(), static_cast<int>(lanes_.size()));
@@ -105,8 +104,6 @@ class Packed {
   void run_adaptive(const SimulationOptions& options, Watch& watch) {
     store(0, run_located(m_, options, setting_of(options, watch), lanes_[0]));
   }
-
-  bool abandoned(std::size_t i) const { return ends_[i].abandoned; }
 
  private:
   static constexpr long kStepEvaluations = 4;
@@ -137,7 +134,6 @@ class Packed {
   void judge_step(std::size_t i, double h) {
     BatchCase& c = cases_[i];
     SimulationOutcome& o = c.outcome;
-    if (ends_[i].abandoned) return;
     o.step_limit = find_step_limit(m_, *c.parameters, looks_[i], !c.known_along, ends_[i], c.known);
     const bool is_past = h > o.step_limit.seconds;
     const std::string past = is_past ? describe_past_limit(h, o.step_limit) : "";
@@ -206,64 +202,6 @@ class Packed {
   std::vector<LaneCase> lanes_;
 };
 
-// Code for the steps of a pack, if there is any, with frames of its own.
-class CodeForPack {
- public:
-  CodeForPack(const Mechanism& m, std::span<const LaneCase> cases, const SimulationOptions& options,
-              const StepLoopChoice& choice, int lanes) {
-    if (choice.general) return;
-    list_observed(m, *cases[0].observers);
-    const long steps = make_step_grid(options).count;
-    written_ = written_step(m, cases, observed_, steps, choice.level);
-    if (written_) fill_frames((lanes + kFrameLanes - 1) / kFrameLanes);
-  }
-
-  const StepCode* get() const { return written_ ? &code_ : nullptr; }
-
- private:
-  struct alignas(kFrameLanes * sizeof(double)) Slot {
-    double numbers[kFrameLanes] = {};
-  };
-  static constexpr long kOften = 8;  // steps: what is looked at more rarely takes a general step
-
-  void list_observed(const Mechanism& m, const Observers& form) {
-    const auto add = [&](const Sampling& sampling, std::span<const Channel> channels) {
-      const bool is_written = sampling.stride < kOften &&
-                              std::all_of(channels.begin(), channels.end(),
-                                          [&m](const Channel& c) { return is_writable(m, c); });
-      first_.push_back(is_written ? static_cast<int>(observed_.size()) : -1);
-      if (is_written) {
-        observed_.insert(observed_.end(), channels.begin(), channels.end());
-      } else {
-        beyond_.push_back(sampling);
-      }
-    };
-    for (const auto& s : form.comparisons) add(s.sampling, s.channels);
-    for (const auto& s : form.reductions) add(s.sampling, {&s.channel, 1});
-    for (const auto& s : form.series) add(s.sampling, s.channels);
-  }
-
-  void fill_frames(int frames) {
-    frames_.resize(static_cast<std::size_t>(frames * written_->frame_slots));
-    for (int i = 0; i < frames; ++i) {
-      for (const auto& [slot, bits] : written_->constants) {
-        Slot& place = frames_[static_cast<std::size_t>(i * written_->frame_slots + slot)];
-        for (double& number : place.numbers) number = std::bit_cast<double>(bits);
-      }
-    }
-    code_ = {written_->code->function(),          written_->slots, frames_.front().numbers,
-             written_->frame_slots * kFrameLanes, first_.data(),   beyond_.data(),
-             static_cast<int>(beyond_.size())};
-  }
-
-  std::vector<Channel> observed_;
-  std::vector<int> first_;  // by observer
-  std::vector<Sampling> beyond_;
-  std::shared_ptr<const WrittenStep> written_;
-  std::vector<Slot> frames_;
-  StepCode code_;
-};
-
 // A lone case takes one lane: the same bits, and faster than a pack of copies.
 void run_pack(const Mechanism& m, const SimulationOptions& options, std::span<BatchCase> cases,
               const RunLimits& limits, const StepLoopChoice& choice) {
@@ -271,18 +209,12 @@ void run_pack(const Mechanism& m, const SimulationOptions& options, std::span<Ba
   const int lanes = cases.size() == 1 ? 1 : choice.level.lanes;
   Watch watch{limits};
   Packed packed(m, cases);
-  const CodeForPack code(m, packed.lanes(), options, choice, lanes);
-  packed.run(options, watch, find_kernel(m, isa, lanes, choice.general || code.get()), code.get());
-  std::vector<BatchCase> abandoned;
-  for (std::size_t i = 0; i < cases.size(); ++i) {
-    if (packed.abandoned(i)) abandoned.push_back(cases[i]);
+  PackCode code;
+  if (!choice.general) {
+    const long steps = make_step_grid(options).count;
+    code = PackCode(m, packed.lanes(), steps, choice.level, lanes);
   }
-  if (abandoned.empty()) return;
-  Packed(m, abandoned).run(options, watch, find_kernel(m, isa, lanes, true));
-  auto done = abandoned.begin();
-  for (std::size_t i = 0; i < cases.size(); ++i) {
-    if (packed.abandoned(i)) cases[i].outcome = std::move((done++)->outcome);
-  }
+  packed.run(options, watch, find_kernel(isa, lanes), code.get());
 }
 
 void run_each(const Mechanism& m, const SimulationOptions& options, std::span<BatchCase> cases,

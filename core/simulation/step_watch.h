@@ -15,22 +15,21 @@
 
 namespace linkstudy {
 
-template <class Real, class M>
+template <class Real>
 class StepWatch {
  public:
   using Mask = typename RealTraits<Real>::Mask;
 
-  StepWatch(const M& m, const Parameters<Real>& p, const LaneCase* cases, int count, long steps)
+  StepWatch(const Mechanism& m, const Parameters<Real>& p, const LaneCase* cases, int count,
+            long steps)
       : m_(m),
         p_(p),
         cases_(cases),
         count_(count),
         stride_(std::max(1L, steps / kEvenLooks)),
         next_(stride_) {
-    if constexpr (!FixedStructure<M>) {
-      heaviest_.assign(static_cast<std::size_t>(look_count(m) - kEvenLooks), Real(0.0));
-      inverse_bound_.resize(static_cast<std::size_t>(m.nz));
-    }
+    heaviest_.assign(static_cast<std::size_t>(look_count(m) - kEvenLooks), Real(0.0));
+    inverse_bound_.resize(static_cast<std::size_t>(m.nz));
     bound_bristles();
   }
 
@@ -41,9 +40,9 @@ class StepWatch {
   Mask bristles_hold(const Real* z) const { return bent(z) <= Real(kFarthest); }
 
   // An accepted state and its evaluation, in the lanes that still run.
-  void see(long step, double t, const Real* y, const Workspace<Real, M>& w, unsigned active) {
+  void see(long step, double t, const Real* y, const Workspace<Real>& w, unsigned active) {
     if (step == next_) look_evenly(step, t, y, w, active);
-    if (friction_count(m_) + contact_count(m_) == 0) return;
+    if (m_.friction_count() + m_.contact_count() == 0) return;
     const auto right = bent(y + m_.nq + m_.nv) <= Real(kRight);
     Real rate(0.0);
     const auto note = [&](int n, Real load) {
@@ -52,18 +51,18 @@ class StepWatch {
       at(heaviest_, n) = select(more, load, at(heaviest_, n));
       keep(kEvenLooks + n, lane_bits(more) & active, t, y, w);
     };
-    for_frictions(m_, [&](auto i) {
+    for (const int i : indices_of(m_.frictions)) {
       rate = max(rate, at(w.frictions, i).relaxation);
       note(i, at(w.frictions, i).load);
-    });
-    for_all_contacts(m_, [&](auto i) {
+    }
+    for (const int i : indices_of(m_.contacts)) {
       const ContactState<Real>& s = at(w.contacts, i);
       const NormalContact<Real>& law = at(p_.clearances, at(m_.contacts, i).clearance).contact;
       rate = max(rate, s.relaxation);
-      const int n = friction_count(m_) + 2 * i;
+      const int n = m_.friction_count() + 2 * i;
       note(n, s.elastic);
       note(n + 1, s.elastic * law.damping / max(s.approach, law.least_speed));
-    });
+    }
     const auto faster = right && rate > rate_;
     rate_ = select(faster, rate, rate_);
     rate_time_ = select(faster, Real(t), rate_time_);
@@ -82,8 +81,7 @@ class StepWatch {
   // Largest |z| in parts of what its law allows.
   Real bent(const Real* z) const {
     Real most(0.0);
-    for_range(Index<0>(), bristle_count(m_),
-              [&](auto i) { most = max(most, abs(z[i]) * at(inverse_bound_, i)); });
+    for (const int i : indices(m_.nz)) most = max(most, abs(z[i]) * at(inverse_bound_, i));
     return most;
   }
 
@@ -91,48 +89,44 @@ class StepWatch {
     const auto bound = [this](int z, const LugreParameters<Real>& law) {
       at(inverse_bound_, z) = law.sigma0 / law.mu_s;
     };
-    for_frictions(m_, [&](auto i) {
+    for (const int i : indices_of(m_.frictions)) {
       const JointFrictionStructure& f = at(m_.frictions, i);
       bound(f.z, at(p_.frictions, i).law);
       if (f.turn >= 0 && f.slide >= 0) bound(f.z + 1, at(p_.frictions, i).law);
-    });
-    for_all_contacts(m_, [&](auto i) {
+    }
+    for (const int i : indices_of(m_.contacts)) {
       const ContactStructure& c = at(m_.contacts, i);
       if (c.z >= 0) bound(c.z, at(p_.clearances, c.clearance).friction);
-    });
+    }
   }
 
-  void look_evenly(long step, double t, const Real* y, const Workspace<Real, M>& w,
-                   unsigned active) {
+  void look_evenly(long step, double t, const Real* y, const Workspace<Real>& w, unsigned active) {
     keep(static_cast<int>(step / stride_) - 1, active, t, y, w);
     next_ = step / stride_ < kEvenLooks ? step + stride_ : -1;
   }
 
   [[gnu::noinline]] void keep(int look, unsigned lanes, double t, const Real* y,
-                              const Workspace<Real, M>& w) const {
+                              const Workspace<Real>& w) const {
     const int size = state_size(m_);
     for (int i = 0; i < count_; ++i) {
       if ((lanes >> i & 1u) == 0 || cases_[i].looks == nullptr) continue;
       double* row = cases_[i].looks + look * look_size(m_);
       *row++ = t;
       for (int k = 0; k < size; ++k) *row++ = lane(y[k], i);
-      for_all_contacts(m_, [&](auto c) {
+      for (const int c : indices_of(m_.contacts)) {
         const ContactState<Real>& s = at(w.contacts, c);
         *row++ = lane(s.elastic, i) > 0.0 ? lane(s.approach, i) : kNoApproach;
-      });
+      }
     }
   }
 
-  static constexpr int kLoads =
-      FixedStructure<M> ? Counts<M>::frictions + 2 * Counts<M>::contacts : -1;
-
-  const M& m_;
+  const Mechanism& m_;
   const Parameters<Real>& p_;
   const LaneCase* cases_;
   int count_;
-  long stride_, next_;            // steps between even looks, step of the next
-  Array<Real, kLoads> heaviest_;  // by joint with friction, then two a contact
-  Array<Real, Counts<M>::nz> inverse_bound_;
+  long stride_, next_;          // steps between even looks, step of the next
+  std::vector<Real> heaviest_;  // by joint with friction, then two a contact
+  std::vector<Real> inverse_bound_;
   Real rate_ = Real(0.0), rate_time_ = Real(0.0);
 };
 

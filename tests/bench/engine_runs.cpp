@@ -26,13 +26,14 @@ Comparison compare_closure_force(const Mechanism& mechanism, const double* refer
 
 }  // namespace
 
-EngineRun::EngineRun(const Model& model, int lanes, double step, long steps)
-    : model_(model), lanes_(lanes), step_(step), steps_(steps) {
+EngineRun::EngineRun(const Model& model, const SimdLevel& level, double step, long steps,
+                     bool written)
+    : model_(model), kernel_(&find_kernel(level.isa, level.lanes)), step_(step), steps_(steps) {
   y_ = model.start.q;
   y_.insert(y_.end(), model.start.v.begin(), model.start.v.end());
   y_.insert(y_.end(), static_cast<std::size_t>(model.mechanism.nz) + 2, 0.0);
   reference_.assign(3 * (static_cast<std::size_t>(steps) + 1), 1.0);
-  observers_.resize(static_cast<std::size_t>(lanes));
+  observers_.resize(static_cast<std::size_t>(level.lanes));
   for (auto& o : observers_) {
     o.comparisons = {compare_closure_force(model.mechanism, reference_.data(), steps)};
   }
@@ -42,17 +43,18 @@ EngineRun::EngineRun(const Model& model, int lanes, double step, long steps)
     cases_.push_back(
         {&model_.parameters, y_.data(), finals_[i].data(), &observers_[i], nullptr, &ends_[i]});
   }
+  if (written) code_ = PackCode(model_.mechanism, cases_, steps, level, level.lanes);
 }
 
-double EngineRun::run(const Kernel& kernel) {
-  const KernelRun setting{begin_, step_, steps_, 100, 1.0, never, nullptr};
+double EngineRun::run() {
+  const KernelRun setting{begin_, step_, steps_, 100, 1.0, never, nullptr, code_.get()};
   const double spent =
-      seconds([&] { kernel.run(model_.mechanism, setting, cases_.data(), lanes_); });
+      seconds([&] { kernel_->run(model_.mechanism, setting, cases_.data(), lanes()); });
   for (const LaneEnd& end : ends_) {
-    if (end.cause == Cause::ok && !end.abandoned && end.steps == steps_) continue;
+    if (end.cause == Cause::ok && end.steps == steps_) continue;
     throw std::runtime_error(fmt::format("a run ended early: {}", name_of(end.cause)));
   }
-  return spent / (4.0 * static_cast<double>(steps_) * lanes_);
+  return spent / (4.0 * static_cast<double>(steps_) * lanes());
 }
 
 void EngineRun::go_on() {
@@ -77,13 +79,10 @@ std::vector<EngineRow> engine_rows(const Model& model, InstructionSet isa, doubl
   const SimdLevel level = choose_simd_level(std::string(name_of(isa)).c_str(), nullptr);
   std::vector<EngineRow> rows;
   for (const int lanes : {1, level.lanes}) {
-    for (const bool general : {true, false}) {
-      const Kernel& kernel = find_kernel(model.mechanism, isa, lanes, general);
-      if (!general && kernel.serves == nullptr) continue;
-      rows.push_back({&kernel,
-                      EngineRun(model, lanes, step, steps),
-                      std::numeric_limits<double>::infinity(),
-                      {}});
+    for (const bool written : {false, true}) {
+      EngineRun run(model, {isa, lanes}, step, steps, written);
+      if (run.is_written() != written) continue;
+      rows.push_back({std::move(run), std::numeric_limits<double>::infinity(), {}});
     }
   }
   return rows;
@@ -99,8 +98,9 @@ void print_rows(const std::string& model, const std::string& other, double least
                 const std::vector<EngineRow>& rows) {
   fmt::print("{:<12}{:<10}{:>6}  {:<8}{:>10.0f}\n", model, other, 1, "", least * 1e9);
   for (const EngineRow& r : rows) {
-    fmt::print("{:<12}{:<10}{:>6}  {:<8}{:>10.1f}{:>10.1f}\n", model, name_of(r.kernel->isa),
-               r.kernel->lanes, r.fixed() ? "fixed" : "general", r.best * 1e9, r.ratio());
+    fmt::print("{:<12}{:<10}{:>6}  {:<8}{:>10.1f}{:>10.1f}\n", model, name_of(r.load.isa()),
+               r.load.lanes(), r.load.is_written() ? "written" : "general", r.best * 1e9,
+               r.ratio());
   }
 }
 

@@ -11,6 +11,7 @@
 
 #include "core/model/compile.h"
 #include "core/simulation/kernels.h"
+#include "core/simulation/pack_code.h"
 
 namespace linkstudy::testing {
 
@@ -26,12 +27,16 @@ double seconds(F&& f) {
 // at every step.
 class EngineRun {
  public:
-  EngineRun(const Model& model, int lanes, double step, long steps);
+  EngineRun(const Model& model, const SimdLevel& level, double step, long steps, bool written);
   EngineRun(EngineRun&&) = default;  // no copies: members point into each other's storage
 
   // One run of all steps from the start; seconds per right-hand side and case. Throws if a lane
   // ends early.
-  double run(const Kernel& kernel);
+  double run();
+
+  bool is_written() const { return code_.get() != nullptr; }
+  int lanes() const { return kernel_->lanes; }
+  InstructionSet isa() const { return kernel_->isa; }
 
   // The next run starts where the last one ended.
   void go_on();
@@ -41,7 +46,7 @@ class EngineRun {
 
  private:
   const Model& model_;
-  int lanes_;
+  const Kernel* kernel_;
   double step_;
   long steps_;
   double begin_ = 0.0;  // s
@@ -50,21 +55,20 @@ class EngineRun {
   std::vector<LaneEnd> ends_;
   std::vector<std::vector<double>> finals_;
   std::vector<LaneCase> cases_;
+  PackCode code_;
 };
 
 // A step loop that is measured. ratios: time of the other over that of the engine.
 struct EngineRow {
-  const Kernel* kernel;
   EngineRun load;
   double best;  // s per right-hand side and case
   std::vector<double> ratios;
 
-  bool fixed() const { return kernel->serves != nullptr; }
   double ratio() const;  // median
 };
 
-// The loops for a model on one instruction set: one lane and all lanes, for any mechanism and, if
-// there is one, for this structure.
+// The loops for a model on one instruction set: one lane and all lanes, general and, if there is
+// one, written for this structure.
 std::vector<EngineRow> engine_rows(const Model& model, InstructionSet isa, double step, long steps);
 
 // Fills the rows; `other` returns its seconds per right-hand side. Returns the least of those.
@@ -74,7 +78,7 @@ double measure_beside(F&& other, std::vector<EngineRow>& rows, int chunks = 15) 
   for (int chunk = 0; chunk < chunks; ++chunk) {
     for (EngineRow& r : rows) {
       const double before = other();
-      const double own = r.load.run(*r.kernel);
+      const double own = r.load.run();
       const double after = other();
       least = std::min({least, before, after});
       r.best = std::min(r.best, own);

@@ -14,7 +14,6 @@
 #include <string>
 #include <vector>
 
-#include "study/specialize/fixed_kernels.h"
 #include "tests/bench/engine_runs.h"
 #include "tests/bench/simbody_run.h"
 #include "tests/mechanisms/rsrrp.h"
@@ -49,13 +48,13 @@ double compare(const char* name, SimbodyRun& simbody, const Model& model, Instru
     simbody.advance(kStep, kSteps);
     const std::vector<double> expected = simbody.positions();
     for (EngineRow& r : rows) {
-      r.load.run(*r.kernel);
-      for (int lane = 0; lane < r.kernel->lanes; ++lane) {
+      r.load.run();
+      for (int lane = 0; lane < r.load.lanes(); ++lane) {
         const double d = difference(r.load.positions(lane), expected);
         if (!(d <= kAgreement)) {
           throw std::runtime_error(
               fmt::format("{}: engine ({} lanes, lane {}) and Simbody differ by {:.1e} after {} s",
-                          name, r.kernel->lanes, lane, d, kStep * kSteps * (run + 1)));
+                          name, r.load.lanes(), lane, d, kStep * kSteps * (run + 1)));
         }
         largest = std::max(largest, d);
       }
@@ -93,7 +92,6 @@ void print_version() {
 int main() {
   using namespace linkstudy::testing;
   using linkstudy::ClosureModel;
-  linkstudy::add_fixed_kernels();
   try {
     print_version();
     print_heading();

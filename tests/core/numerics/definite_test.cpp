@@ -64,11 +64,11 @@ TEST(Definite, Three_unknowns_are_solved_and_refused_alike_by_inverse_and_by_fac
     j.row(2) += 0.3 * static_cast<double>(seed % 5) * j.row(0);
     RowMajor a = j * j.transpose(), l = a;
     VectorXd b = random.vector(3, 1.0), x = b, unused(3);
-    const bool clear = factorize_definite(Index<3>(), kMargin, a.data(), unused.data());
+    const bool clear = factorize_definite(Three(), kMargin, a.data(), unused.data());
     ASSERT_EQ(clear, factorize_definite(3, kMargin, l.data(), unused.data())) << "seed " << seed;
     if (!clear) continue;
     ++solved;
-    solve_definite(Index<3>(), a.data(), unused.data(), x.data());
+    solve_definite(Three(), a.data(), unused.data(), x.data());
     solve_definite(3, l.data(), unused.data(), b.data());
     const VectorXd s = (j * j.transpose()).jacobiSvd().singularValues();
     ASSERT_TRUE(near_relative(x, b, 1e-14 * s[0] / s[2])) << "seed " << seed;

@@ -1,0 +1,45 @@
+// The written step of one pack (core/simulation/written_steps.h) with frames of its own: what a
+// kernel takes as StepCode.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/base/isa.h"
+#include "core/simulation/kernel.h"
+#include "core/simulation/written_steps.h"
+
+namespace linkstudy {
+
+class PackCode {
+ public:
+  // None, until there is one.
+  PackCode() = default;
+
+  // The step for these cases, of which each is `steps` long, in a kernel of `lanes`; none where
+  // written_step has none. Where observers look it writes what they see, unless that is seldom.
+  PackCode(const Mechanism& m, std::span<const LaneCase> cases, long steps, const SimdLevel& level,
+           int lanes);
+  PackCode(PackCode&&) = default;  // no copies: members point into each other's storage
+  PackCode& operator=(PackCode&&) = default;
+
+  const StepCode* get() const { return written_ ? &code_ : nullptr; }
+
+ private:
+  struct alignas(kFrameLanes * sizeof(double)) Slot {
+    double numbers[kFrameLanes] = {};
+  };
+
+  void list_observed(const Mechanism& m, const Observers& form);
+  void fill_frames(int frames);
+
+  std::vector<Channel> observed_;
+  std::vector<int> first_;  // by observer
+  std::vector<Sampling> beyond_;
+  std::shared_ptr<const WrittenStep> written_;
+  std::vector<Slot> frames_;
+  StepCode code_;
+};
+
+}  // namespace linkstudy
