@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/numerics/odeint_steppers.h"
+#include "core/numerics/adaptive_methods.h"
 
 namespace linkstudy {
 namespace {
@@ -107,7 +107,7 @@ StepResult AdaptiveIntegrator::step(double latest) {
 std::unique_ptr<AdaptiveIntegrator> make_adaptive_integrator(AdaptiveMethod method,
                                                              AdaptiveProblem problem) {
   return method == AdaptiveMethod::dormand_prince ? make_dormand_prince(std::move(problem))
-                                                  : make_rosenbrock(std::move(problem));
+                                                  : make_radau(std::move(problem));
 }
 
 }  // namespace linkstudy

@@ -1,11 +1,13 @@
 // Initial value problems y' = f(t, y) by steps whose length follows from their error, with the
-// solution between the ends of the last step (Boost.odeint):
+// solution between the ends of the last step:
 //   dormand_prince  explicit, order 5(4), dense output of order 4; 6 evaluations a step
-//   rosenbrock      linearly implicit (RODAS), order 4(3), dense output of order 3, stiffly
-//                   accurate; 6 evaluations a step and two a column of the Jacobian
+//                   (Boost.odeint)
+//   radau           implicit (Radau IIA, three stages), order 5(3), dense output of order 3,
+//                   stiffly accurate; 3 evaluations an iteration of Newton and two a column of a
+//                   new Jacobian (radau.cpp)
 // A step is accepted when the estimate of its error stays below
 //   absolute_i + relative max |y_i|
-// in every unknown (dormand_prince) or in the mean square over them (rosenbrock). Knows no
+// in every unknown (dormand_prince) or in the mean square over them (radau). Knows no
 // mechanics. A step that fails is a result; no exception leaves.
 #pragma once
 
@@ -15,7 +17,7 @@
 
 namespace linkstudy {
 
-enum class AdaptiveMethod { dormand_prince, rosenbrock };
+enum class AdaptiveMethod { dormand_prince, radau };
 
 // Writes dy = f(t, y).
 using Slopes = std::function<void(double t, const double* y, double* dy)>;

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/numerics/odeint_steppers.h"
+#include "core/numerics/adaptive_methods.h"
 
 namespace linkstudy {
 namespace {

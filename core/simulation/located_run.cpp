@@ -44,7 +44,7 @@ class LocatedRun {
         checks_(m_, p_),
         observers_(&case_, 1),
         integrator_(make_adaptive_integrator(options.integrator == Integrator::stiff
-                                                 ? AdaptiveMethod::rosenbrock
+                                                 ? AdaptiveMethod::radau
                                                  : AdaptiveMethod::dormand_prince,
                                              problem())),
         events_([this](double t, Nearness* contacts) { look_inside(t, contacts); },
@@ -97,10 +97,10 @@ class LocatedRun {
     ++looks_;
     update_kinematics(m_, p_, y, y + m_.nq, look_w_);
     for_journals(m_, p_, look_w_, [&](int c, const JournalInBearing<double>& j) {
-      for_contacts(m_, c, [&](int i) {
+      for (const int i : contacts_of(at(m_.clearances, c))) {
         const auto k = contact_geometry(j, at(m_.contacts, i), at(p_.clearances, c));
         contacts[i] = {k.depth, k.rate};
-      });
+      }
     });
   }
 
@@ -258,7 +258,7 @@ class LocatedRun {
   void check_accepted() {
     if (!m_.cut_rows.empty()) {
       update_kinematics(m_, p_, y_.data(), y_.data() + m_.nq, look_w_);
-      update_rows<ClosureModel::cut>(m_, p_, look_w_);
+      update_rows<RowStorage::cut>(m_, p_, look_w_);
     }
     check_motion(y_.data(), look_w_);
   }

@@ -6,7 +6,7 @@
 namespace linkstudy {
 
 // rk4: constant steps of the classical Runge-Kutta method. adaptive: explicit, Dormand and Prince.
-// stiff: implicit, Rosenbrock. The last two choose their steps by the tolerances, locate the begin
+// stiff: implicit, Radau IIA. The last two choose their steps by the tolerances, locate the begin
 // and the end of contacts, and are seen by observers on the grid of `step`.
 enum class Integrator { rk4, adaptive, stiff };
 enum class Start { given, equilibrium };
@@ -20,7 +20,8 @@ template <>
 inline constexpr auto kWords<Integrator> = make_words<Integrator>(
     {{Integrator::rk4, "rk4", "classic Runge-Kutta with a constant step"},
      {Integrator::adaptive, "adaptive", "explicit Dormand-Prince"},
-     {Integrator::stiff, "stiff", "implicit Rosenbrock; both find begin and end of contacts"}});
+     {Integrator::stiff, "stiff",
+      "implicit Runge-Kutta (Radau IIA); both find begin and end of contacts"}});
 template <>
 inline constexpr auto kWords<Start> =
     make_words<Start>({{Start::given, "given", "as the joints say"},

@@ -88,7 +88,7 @@ class Library {
 
   WrittenReport report() {
     const std::lock_guard lock(mutex_);
-    return {kernels_, seconds_};
+    return report_;
   }
 
  private:
@@ -113,16 +113,18 @@ class Library {
     std::optional<StepTrace> trace;
     try {
       trace.emplace(trace_step(m, sizes, known, observed));
-    } catch (const Untraceable&) {
+    } catch (const Untraceable& e) {
       s.traceable = false;
+      ++report_.untraceable;
+      report_.why = e.what();
       return nullptr;
     }
     const codegen::Program program = codegen::allocate(trace->graph, trace->slots.end);
     auto code = codegen::WrittenCode::place(codegen::assemble_avx2(program));
     if (!code) return nullptr;
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
-    ++kernels_;
-    seconds_ += spent.count();
+    ++report_.kernels;
+    report_.seconds += spent.count();
     s.written.push_back(std::make_shared<const WrittenStep>(
         WrittenStep{trace->slots, observed, std::move(known), program.constants, program.slots,
                     program.operations, spent.count(), std::move(code)}));
@@ -131,8 +133,7 @@ class Library {
 
   std::mutex mutex_;
   std::vector<Structure> structures_;
-  int kernels_ = 0;
-  double seconds_ = 0.0;
+  WrittenReport report_;
 };
 
 Library& library() {

@@ -31,6 +31,8 @@ struct WrittenStep {
 struct WrittenReport {
   int kernels = 0;
   double seconds = 0.0;
+  int untraceable = 0;  // structures whose step cannot be traced
+  std::string why;      // the last of them could not
 };
 WrittenReport written_report();
 

@@ -27,9 +27,16 @@ std::string kernels_text() {
 
 std::string written_text() {
   const WrittenReport report = written_report();
-  if (report.kernels == 0) return "";
-  return fmt::format("{} step kernel{} written in {:.1f} ms", report.kernels,
-                     report.kernels == 1 ? "" : "s", 1e3 * report.seconds);
+  std::string text;
+  if (report.kernels > 0) {
+    text = fmt::format("{} step kernel{} written in {:.1f} ms", report.kernels,
+                       report.kernels == 1 ? "" : "s", 1e3 * report.seconds);
+  }
+  if (report.untraceable > 0) {
+    text += fmt::format("{}{} structure{} by the general loop alone ({})", text.empty() ? "" : ", ",
+                        report.untraceable, report.untraceable == 1 ? "" : "s", report.why);
+  }
+  return text;
 }
 
 std::string build_text() {

@@ -13,7 +13,8 @@ std::string hdf5_version();     // "1.10.8"
 std::string simd_text();
 // What runs the steps: "written for each linkage (AVX2)", or "general (why)". Throws SimdError.
 std::string kernels_text();
-// Of this process so far: "2 step kernels written in 3.1 ms", or "" for none.
+// Of this process so far: "2 step kernels written in 3.1 ms", and which structures run by the
+// general loop alone; "" for none.
 std::string written_text();
 
 }  // namespace linkstudy

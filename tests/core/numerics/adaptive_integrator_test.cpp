@@ -11,7 +11,7 @@
 namespace linkstudy::testing::adaptive_integrator_test {
 namespace {
 
-constexpr AdaptiveMethod kMethods[] = {AdaptiveMethod::dormand_prince, AdaptiveMethod::rosenbrock};
+constexpr AdaptiveMethod kMethods[] = {AdaptiveMethod::dormand_prince, AdaptiveMethod::radau};
 
 std::unique_ptr<AdaptiveIntegrator> make(AdaptiveMethod method, Slopes f, int size,
                                          double tolerance, double max_step = 0.0) {
@@ -38,20 +38,28 @@ void pendulum(double, const double* y, double* dy) {
   dy[1] = 9.81 * std::cos(y[0]);
 }
 
+// y' = 2 cos t - y, y = cos t + sin t: linear, with one Jacobian, so that Newton leaves nothing.
+void follow(double t, const double* y, double* dy) {
+  dy[0] = 2.0 * std::cos(t) - y[0];
+}
+double followed(double t) {
+  return std::cos(t) + std::sin(t);
+}
+
 // Error of steps of one length: the tolerance accepts everything, the length is the largest.
 double fixed_step_error(AdaptiveMethod method, double h) {
-  const auto run = make(method, swell, 1, 1e3, h);
+  const auto run = make(method, follow, 1, 1e3, h);
   const double y0 = 1.0;
   run->start(0.0, &y0, h);
   finish(*run, 2.0);
   EXPECT_EQ(run->steps(), std::lround(2.0 / h));
-  return std::fabs(run->y()[0] - std::exp(std::sin(2.0)));
+  return std::fabs(run->y()[0] - followed(2.0));
 }
 
 // Largest error inside one step of length h.
 double dense_error(AdaptiveMethod method, double h) {
-  const auto run = make(method, swell, 1, 1e3, h);
-  const double begin = 0.4, y0 = std::exp(std::sin(begin));
+  const auto run = make(method, follow, 1, 1e3, h);
+  const double begin = 0.4, y0 = followed(begin);
   run->start(begin, &y0, h);
   EXPECT_EQ(run->step(10.0), StepResult::accepted);
   EXPECT_NEAR(run->t(), begin + h, 1e-15);
@@ -60,7 +68,7 @@ double dense_error(AdaptiveMethod method, double h) {
     const double t = begin + h * k / 32.0;
     double y = 0.0;
     run->value_at(t, &y);
-    worst = std::max(worst, std::fabs(y - std::exp(std::sin(t))));
+    worst = std::max(worst, std::fabs(y - followed(t)));
   }
   return worst;
 }
@@ -90,12 +98,12 @@ void drawn(double t, const double* y, double* dy) {
 }  // namespace
 
 TEST(AdaptiveIntegrator, Steps_of_one_length_are_of_the_order_of_the_method) {
-  for (const double h : {0.05, 0.025}) {
+  for (const double h : {0.2, 0.1}) {
     const auto order = [h](AdaptiveMethod m) {
       return std::log2(fixed_step_error(m, h) / fixed_step_error(m, h / 2));
     };
     EXPECT_NEAR(order(AdaptiveMethod::dormand_prince), 5.0, 0.4) << h;
-    EXPECT_NEAR(order(AdaptiveMethod::rosenbrock), 4.0, 0.4) << h;
+    EXPECT_NEAR(order(AdaptiveMethod::radau), 5.0, 0.4) << h;
   }
 }
 
@@ -106,7 +114,7 @@ TEST(AdaptiveIntegrator, Dense_output_is_of_order_four_and_three) {
       return std::log2(dense_error(m, h) / dense_error(m, h / 2));
     };
     EXPECT_NEAR(power(AdaptiveMethod::dormand_prince), 5.0, 0.5) << h;
-    EXPECT_NEAR(power(AdaptiveMethod::rosenbrock), 4.0, 0.5) << h;
+    EXPECT_NEAR(power(AdaptiveMethod::radau), 4.0, 0.5) << h;
   }
 }
 
@@ -116,7 +124,7 @@ TEST(AdaptiveIntegrator, The_error_falls_with_the_tolerance) {
     for (const double tolerance : {1e-6, 1e-8, 1e-10}) {
       const double error = pendulum_error(method, tolerance);
       EXPECT_LT(error, 0.1 * before) << tolerance;
-      EXPECT_GT(error, 1e-3 * before) << tolerance;
+      EXPECT_GT(error, 1e-4 * before) << tolerance;
       EXPECT_LT(error, 300 * tolerance);
       before = error;
     }
@@ -168,7 +176,7 @@ TEST(AdaptiveIntegrator, Van_der_Pol_reaches_its_published_state_by_few_implicit
     dy[0] = y[1];
     dy[1] = ((1.0 - y[0] * y[0]) * y[1] - y[0]) / eps;
   };
-  const auto run = make(AdaptiveMethod::rosenbrock, f, 2, 1e-8);
+  const auto run = make(AdaptiveMethod::radau, f, 2, 1e-8);
   const double y0[] = {2.0, -0.66};
   run->start(0.0, y0);
   finish(*run, 2.0);
@@ -179,7 +187,7 @@ TEST(AdaptiveIntegrator, Van_der_Pol_reaches_its_published_state_by_few_implicit
 
 TEST(AdaptiveIntegrator, A_stiff_problem_takes_the_explicit_method_fifty_times_the_evaluations) {
   const double y0[] = {2.0, 0.0};
-  const auto implicit = make(AdaptiveMethod::rosenbrock, van_der_pol(1000.0), 2, 1e-6);
+  const auto implicit = make(AdaptiveMethod::radau, van_der_pol(1000.0), 2, 1e-6);
   implicit->start(0.0, y0);
   finish(*implicit, 800.0);
   const auto explicit_run = make(AdaptiveMethod::dormand_prince, van_der_pol(1000.0), 2, 1e-6);
@@ -191,7 +199,7 @@ TEST(AdaptiveIntegrator, A_stiff_problem_takes_the_explicit_method_fifty_times_t
 
 TEST(AdaptiveIntegrator, A_course_that_draws_is_followed_by_large_implicit_steps) {
   const double y0 = 1.0;
-  const auto run = make(AdaptiveMethod::rosenbrock, drawn, 1, 1e-8);
+  const auto run = make(AdaptiveMethod::radau, drawn, 1, 1e-8);
   run->start(0.0, &y0);
   finish(*run, 10.0);
   EXPECT_NEAR(run->y()[0], std::sin(10.0), 1e-7);
@@ -213,7 +221,7 @@ TEST(AdaptiveIntegrator, Passive_unknowns_save_the_evaluations_of_their_columns)
   long evaluations[2], steps[2];
   for (const int passive : {0, 2}) {
     AdaptiveProblem problem{f, 1e-8, std::vector<double>(4, 1e-8), passive};
-    const auto run = make_adaptive_integrator(AdaptiveMethod::rosenbrock, problem);
+    const auto run = make_adaptive_integrator(AdaptiveMethod::radau, problem);
     run->start(0.0, y0, 1e-3);
     finish(*run, 1.0);
     end[passive / 2] = run->y()[2];
@@ -222,7 +230,9 @@ TEST(AdaptiveIntegrator, Passive_unknowns_save_the_evaluations_of_their_columns)
   }
   EXPECT_NEAR(end[0], end[1], 1e-12);
   EXPECT_EQ(steps[0], steps[1]);
-  EXPECT_GE(evaluations[0] - evaluations[1], 2 * steps[0]);
+  // Two unknowns, two evaluations of each in every Jacobian.
+  EXPECT_GT(evaluations[0], evaluations[1]);
+  EXPECT_EQ((evaluations[0] - evaluations[1]) % 4, 0);
 }
 
 TEST(AdaptiveIntegrator, A_step_ends_where_it_must_and_the_next_keeps_its_length) {

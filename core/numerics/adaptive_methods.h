@@ -1,4 +1,4 @@
-// The two steppers of Boost.odeint behind AdaptiveIntegrator; their types stay in their sources.
+// The methods behind AdaptiveIntegrator; their types stay in their sources.
 #pragma once
 
 #include "core/numerics/adaptive_integrator.h"
@@ -6,6 +6,6 @@
 namespace linkstudy {
 
 std::unique_ptr<AdaptiveIntegrator> make_dormand_prince(AdaptiveProblem problem);
-std::unique_ptr<AdaptiveIntegrator> make_rosenbrock(AdaptiveProblem problem);
+std::unique_ptr<AdaptiveIntegrator> make_radau(AdaptiveProblem problem);
 
 }  // namespace linkstudy
