@@ -48,7 +48,8 @@ class Run {
     const FlushDenormals flush;
     for (step_ = 0;; ++step_) {
       const double t = time();
-      if (is_quiet() && step_by_code(t)) continue;
+      const bool quiet = is_quiet();
+      if (quiet && step_by_code(t)) continue;
       if (step_ == 0 && m_.contact_count() > 0) {
         differentiate_kept(t);
         begin_contact_memory(m_, w_);
@@ -64,6 +65,7 @@ class Run {
           step_, [this](int, std::size_t, const Channel& channel) { return now_.sample(channel); });
       if (step_ == setting_.count) break;
       if (step_ % kStepsBetweenPolls == 0 && interrupted(t)) return;
+      if (!quiet && advance_by_code(t)) continue;
       if (m_.contact_count() > 0) {
         update_contact_memory(m_, w_, contact_steps_.data(), bristles(), contact_log_);
       }
@@ -92,9 +94,7 @@ class Run {
     evaluate_into(w_, t, q, slope);
   }
 
-  [[gnu::flatten]] void finish_step() {
-    settle_state(m_, p_, y_.data(), correction_.data(), w_);
-  }
+  [[gnu::flatten]] void finish_step() { settle_state(m_, p_, y_.data(), correction_.data(), w_); }
 
   // Nothing happens in a step but the step itself, as far as can be said beforehand.
   bool is_quiet() const {
@@ -105,8 +105,7 @@ class Run {
 
   // False, and nothing has changed, where some lane needs the general step.
   [[gnu::noinline]] bool step_by_code(double t) {
-    written_.read(t, now_.initial_energy(), [this](auto&& f) { for_state(f); });
-    if (!written_.run(active_)) return false;
+    if (!run_code(t)) return false;
     if (m_.nz > 0 && (lane_bits(watch_.bristles_hold(bristles())) & active_) != active_)
       return false;
     written_.write_kept(w_);
@@ -116,9 +115,25 @@ class Run {
       return written_.observed(observer, i);
     });
     if (step_ % kStepsBetweenPolls == 0 && interrupted(t)) return true;
+    take_next();
+    return true;
+  }
+
+  // The same after the general evaluation of this state, which has been looked at.
+  [[gnu::noinline]] bool advance_by_code(double t) {
+    if (!written_.is_there() || step_ == 0 || !run_code(t)) return false;
+    take_next();
+    return true;
+  }
+
+  bool run_code(double t) {
+    written_.read(t, now_.initial_energy(), [this](auto&& f) { for_state(f); });
+    return written_.run(active_);
+  }
+
+  void take_next() {
     written_.write_next([this](auto&& f) { for_state(f); });
     if (active_ != kAllLanes<Real>) reset_idle_lanes();
-    return true;
   }
 
   template <class F>
@@ -194,7 +209,7 @@ class Run {
   const KernelRun& setting_;
   const LaneCase* cases_;
   int count_;
-  unsigned active_;         // lanes still running, one bit each
+  unsigned active_;  // lanes still running, one bit each
   long step_ = 0;
   Parameters<Real> p_;
   int size_;

@@ -187,9 +187,8 @@ TEST(LocatedRun, Four_decades_of_stiffness_cost_an_implicit_run_less_than_three_
     const double b = 6.0 * std::sqrt(stiffness);
     Closure& pin = linkage.closures[0];
     pin.model = ClosureModel::sde;
-    pin.sde.arm = 0.1;
-    pin.sde.stiffness = {stiffness, stiffness, stiffness, 0, stiffness, stiffness};
-    pin.sde.damping = {b, b, b, 0, b, b};
+    pin.sde.stiffness = {stiffness, stiffness, stiffness, 0, 1e-2 * stiffness, 1e-2 * stiffness};
+    pin.sde.damping = {b, b, b, 0, 1e-2 * b, 1e-2 * b};
     return run(compile(linkage), by(Integrator::stiff, tolerance, steps_of(1e-2, 1.0)));
   };
   const SimulationOutcome soft = pinned(1e5, 1e-8);
