@@ -145,7 +145,7 @@ std::vector<Sample> samples_along(const CertificateTerms& terms, const Evidence&
   std::vector<Sample> samples;
   for (const Observation& observation : evidence) {
     std::vector<double> x = observation.request.x;
-    const double value = way_of(terms, i) * std::log10(x[i] / terms.point[i]);
+    const double value = way_of(terms, i) * distance(terms.variables[i], terms.point[i], x[i]);
     const bool inside =
         is_below(terms.lower_neighbours[i], x) && is_below(x, terms.upper_neighbours[i]);
     x[i] = terms.point[i];
@@ -176,7 +176,7 @@ Finding judge_falling(const CertificateTerms& terms, const Evidence& evidence, s
   const std::vector<Sample> samples = samples_along(terms, evidence, i);
   const double way = way_of(terms, i);
   const auto reach = [&](const std::vector<std::vector<double>>& neighbours) {
-    return way * std::log10(neighbours[i][i] / terms.point[i]);
+    return way * distance(terms.variables[i], terms.point[i], neighbours[i][i]);
   };
   const auto& failing = way > 0.0 ? terms.lower_neighbours : terms.upper_neighbours;
   const auto& matching = way > 0.0 ? terms.upper_neighbours : terms.lower_neighbours;
@@ -248,8 +248,13 @@ Finding judge_proof(const CertificateTerms& terms, const Evidence& evidence) {
 std::vector<std::vector<double>> points_about(const CertificateTerms& terms, std::size_t i) {
   std::vector<double> reduced = terms.point;
   std::vector<double> raised = terms.point;
-  reduced[i] *= 1.0 - terms.delta;
-  raised[i] /= 1.0 - terms.delta;
+  if (terms.variables[i].is_logarithmic) {
+    reduced[i] *= 1.0 - terms.delta;
+    raised[i] /= 1.0 - terms.delta;
+  } else {
+    reduced[i] = shifted(terms.variables[i], reduced[i], -terms.delta);
+    raised[i] = shifted(terms.variables[i], raised[i], terms.delta);
+  }
   if (terms.response) {
     std::vector<std::vector<double>> points = {reduced, raised};
     std::erase_if(points, [&](const auto& x) { return !is_in_range(terms, x); });
@@ -294,9 +299,18 @@ std::string minimality_statement(const CertificateTerms& terms) {
   std::string text = fmt::format("every k_i (1 - {:g}) alone fails", terms.delta);
   if (has_weight(0.0)) text = fmt::format("k (1 - {:g}) fails", terms.delta);
   if (has_weight(-1.0)) text = fmt::format("k / (1 - {:g}) fails", terms.delta);
+  const bool is_linear = std::ranges::any_of(terms.variables, [](const TunedVariable& variable) {
+    return variable.weight != 0.0 && !variable.is_logarithmic;
+  });
+  if (is_linear) {
+    text = fmt::format("k {} {:g} of its range fails", has_weight(-1.0) ? '+' : '-', terms.delta);
+  }
   if (has_weight(0.0)) {
     text +=
-        fmt::format(", also with a free value {:g} decades to either side", terms.neighbourhood);
+        fmt::format(", also with a free value {:g} decades{} to either side", terms.neighbourhood,
+                    std::ranges::count(terms.variables, false, &TunedVariable::is_logarithmic) > 0
+                        ? ", or parts of a linear range,"
+                        : "");
   }
   return text;
 }

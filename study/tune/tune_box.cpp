@@ -87,7 +87,7 @@ class BoxTuning {
     const std::size_t kept = 6 + 4 * point_.size();
     windows_ = find_windows(log_, point_, std::min(kept, log_.remaining()));
     std::vector<double> margins;
-    for (std::size_t j = 0; j < point_.size(); ++j) margins.push_back(windows_[j].margin_decades);
+    for (std::size_t j = 0; j < point_.size(); ++j) margins.push_back(windows_[j].margin);
     terms_ = make_terms(log_, point_, margins, scan_);
     log_.evaluate(list_requests(terms_, log_));
     log_.evaluate(list_requests(terms_, log_));  // half steps of what the first round showed
