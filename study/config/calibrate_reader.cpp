@@ -179,6 +179,8 @@ void check_signals_and_columns(const LoadCaseInput& experiment, bool takes_signa
 void check_source(const LoadCaseInput& experiment, Diagnostics& diagnostics) {
   const MeasuredInput& measured = *experiment.measured;
   const bool has_results = measured.results && !measured.results->directory.empty();
+  // Which of them it should have is said already.
+  if (!experiment.reference && !measured.results && measured.file.empty()) return;
   if (measured.results && !has_results) {
     diagnostics.add(experiment.at,
                     fmt::format("experiment '{}' names an evaluation or a load case of no results",

@@ -2,8 +2,8 @@
 // `verify` can run them again and judge anew.
 //   C0  k* is feasible at the base step and at half of it
 //   C1  k* is minimal in each variable: k_i (1 - delta) alone is rejected (fails at one step); of a
-//       largest value k_i / (1 - delta); of a linear range k_i less, or plus, delta of the range.
-//       What the objective leaves free is then also moved by the neighbourhood to either side. Of a
+//       largest value k_i / (1 - delta); of a linear range k_i -+ delta of it, or its end. What the
+//       objective leaves free is then also moved by the neighbourhood to either side. Of a
 //       response: both of every variable, as far as the range goes, are rejected or not better
 //   C2  no point of the declared scan below k* (smaller objective) is accepted
 //   C3  the error falls in k about k*: f = log10 max(error / tolerance) drops from the lower

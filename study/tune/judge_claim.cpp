@@ -109,8 +109,9 @@ Finding judge_minimal(const CertificateTerms& terms, const Evidence& evidence) {
       return {Verdict::inconclusive,
               fmt::format("the range of '{}' ends at {:.6g}, {}", variable.path,
                           is_low ? variable.low : variable.high,
-                          is_low ? "above k (1 - delta): lower its low end"
-                                 : "below k / (1 - delta): raise its high end")};
+                          !variable.is_logarithmic ? "where k lies: extend it"
+                          : is_low                 ? "above k (1 - delta): lower its low end"
+                                                   : "below k / (1 - delta): raise its high end")};
     }
   }
   Finding finding = judge_rejected(terms, evidence, points);
@@ -243,6 +244,12 @@ Finding judge_proof(const CertificateTerms& terms, const Evidence& evidence) {
                       proof.doubts)};
 }
 
+// A linear range may end where values do, as at zero: then its end stands for what lies beyond.
+double moved_in_range(const TunedVariable& variable, double value, double distance) {
+  const double moved = move_along(variable, value, distance);
+  return moved == value ? shifted(variable, value, distance) : moved;
+}
+
 }  // namespace
 
 std::vector<std::vector<double>> points_about(const CertificateTerms& terms, std::size_t i) {
@@ -252,8 +259,8 @@ std::vector<std::vector<double>> points_about(const CertificateTerms& terms, std
     reduced[i] *= 1.0 - terms.delta;
     raised[i] /= 1.0 - terms.delta;
   } else {
-    reduced[i] = shifted(terms.variables[i], reduced[i], -terms.delta);
-    raised[i] = shifted(terms.variables[i], raised[i], terms.delta);
+    reduced[i] = moved_in_range(terms.variables[i], terms.point[i], -terms.delta);
+    raised[i] = moved_in_range(terms.variables[i], terms.point[i], terms.delta);
   }
   if (terms.response) {
     std::vector<std::vector<double>> points = {reduced, raised};
@@ -303,7 +310,8 @@ std::string minimality_statement(const CertificateTerms& terms) {
     return variable.weight != 0.0 && !variable.is_logarithmic;
   });
   if (is_linear) {
-    text = fmt::format("k {} {:g} of its range fails", has_weight(-1.0) ? '+' : '-', terms.delta);
+    text = fmt::format("k {} {:g} of its range, or its end, fails", has_weight(-1.0) ? '+' : '-',
+                       terms.delta);
   }
   if (has_weight(0.0)) {
     text +=

@@ -100,6 +100,7 @@ TEST_F(EarlierResults, Fit_as_a_file_of_the_same_numbers_does_to_the_last_bit) {
   const json by_file = answer(window + kFile, "by_file");
   EXPECT_EQ(by_file, by_results);
   // Data without noise: the fit ends where residuals are rounding.
+  EXPECT_TRUE(by_results["check"]["confirms"].get<bool>());
   EXPECT_NEAR(4e4, by_results["parameters"]["closure.S.sde.stiffness"]["value"].get<double>(), 4.0);
   EXPECT_NEAR(50.0, by_results["parameters"]["closure.S.sde.damping"]["value"].get<double>(), 5e-3);
 }

@@ -78,6 +78,23 @@ TEST(LinearTune, Finds_the_lowest_value_of_a_range_through_zero) {
   }
 }
 
+// Half of delta above the end of the range, beyond which there are no values.
+TEST(LinearTune, Is_certified_beside_an_end_of_its_range_that_fails) {
+  PlantedErrors planted;
+  planted.problem.variables = {linear("x", 0.0, 1.0)};
+  planted.problem.components = {{"e", 0.02}};
+  planted.ratios = [](const Values& x) { return Values{std::exp(5.0 * (0.01 - x[0]))}; };
+  const TuningResult result = planted.run();
+  EXPECT_EQ(result.status, TuningStatus::certified) << result.reason;
+  EXPECT_NEAR(result.point[0], 0.01, 1e-3);
+  EXPECT_EQ(planted.smallest[0], 0.0);
+  planted.ratios = [](const Values& x) { return Values{std::exp(5.0 * (-0.01 - x[0]))}; };
+  const TuningResult open = planted.run();
+  EXPECT_EQ(open.status, TuningStatus::inconclusive);
+  EXPECT_NE(open.reason.find("the range of 'x' ends at 0, where k lies"), std::string::npos)
+      << open.reason;
+}
+
 // Between two points of the scan, and steeper than any 1/c over a decade.
 TEST(LinearTune, Finds_a_window_that_the_scan_misses_and_says_where_there_is_none) {
   PlantedErrors planted;
@@ -90,8 +107,7 @@ TEST(LinearTune, Finds_a_window_that_the_scan_misses_and_says_where_there_is_non
     const TuningResult result = planted.run();
     if (least > 1.0) {
       EXPECT_EQ(result.status, TuningStatus::infeasible) << result.reason;
-      EXPECT_NE(result.reason.find("misses by a factor of 1."), std::string::npos)
-          << result.reason;
+      EXPECT_NE(result.reason.find("misses by a factor of 1."), std::string::npos) << result.reason;
       EXPECT_FALSE(result.suggestion);
     } else {
       ASSERT_FALSE(result.point.empty()) << result.reason;
@@ -128,7 +144,7 @@ TEST(LinearTune, Is_written_without_decades) {
   EXPECT_NE(text.find("75 % of the range"), std::string::npos) << text;
   EXPECT_EQ(text.find("log10"), std::string::npos) << text;
   EXPECT_EQ(text.find("nan"), std::string::npos) << text;
-  EXPECT_NE(text.find("k - 0.02 of its range fails"), std::string::npos) << text;
+  EXPECT_NE(text.find("k - 0.02 of its range, or its end, fails"), std::string::npos) << text;
   EXPECT_NE(write_json(result, "").find("\"margin_decades\":null"), std::string::npos);
 }
 
