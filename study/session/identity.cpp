@@ -24,8 +24,8 @@ namespace {
 constexpr const char* kResolvedStudy = "resolved_study";
 constexpr const char* kResolvedModel = "resolved_model";
 constexpr const char* kResolvedReference = "resolved_reference";
-constexpr const char* kFileSuffix = "_file";
 constexpr const char* kDigestSuffix = "_digest";
+constexpr const char* kFileSuffix = "_file";
 
 // Settings that change how a study is run and not what it computes.
 Tree without_run_settings(Tree resolved) {
