@@ -17,6 +17,9 @@ constexpr double kSameMinimum = 1e-3;  // of the rise, or of S where that is not
 constexpr double kFarAway = 0.02;      // of the cube
 constexpr double kNoRise = 1e-3;       // of the rise at the end of an interval
 constexpr double kNoResidual = 1e-18;  // of the greatest S of a start: rounding
+// The same of the check at an exact minimum, which it leaves 1e-6 of the cube away: S rises by some
+// hundred times the square of that.
+constexpr double kNoResidualOfCheck = 1e-10;
 
 // One of the two points of each column, at least: else its parameter would pass for one without
 // effect.
@@ -85,7 +88,8 @@ class Fit {
     for (int i = 0; i <= kMostReturns; ++i) {
       measure();
       // Of S: below it neither method can tell two minima apart.
-      const double slack = std::max(0.01 * result_.figures.rise, 1e-6 * best_->sum);
+      const double slack = is_exact() ? kNoResidualOfCheck * greatest_start_
+                                      : std::max(0.01 * result_.figures.rise, 1e-6 * best_->sum);
       result_.check = cross_check(log_, {point_, best_->sum, slack});
       const bool is_lower = result_.check.ran && result_.check.sum < best_->sum - slack;
       if (is_lower) {
@@ -215,8 +219,11 @@ class Fit {
   }
 
   void report_starts(const std::vector<Descent>& descents) {
-    const double near =
-        best_ == nullptr ? 0.0 : kSameMinimum * std::max(result_.figures.rise, best_->sum * 1e-3);
+    double near = 0.0;
+    if (best_ != nullptr) {
+      near = is_exact() ? kNoResidual * greatest_start_
+                        : kSameMinimum * std::max(result_.figures.rise, best_->sum * 1e-3);
+    }
     for (const Descent& one : descents) {
       StartReport report;
       report.to = to_values(problem(), one.point());
@@ -255,6 +262,8 @@ class Fit {
     } else if (not_known > 0) {
       result_.reason =
           fmt::format("{} of {} parameters are not determined by these data", not_known, count());
+    } else if (is_exact()) {
+      result_.reason = "the data are met to rounding, so that nothing tells of intervals";
     }
     if (log_.is_exhausted()) {
       result_.status = FitStatus::ambiguous;

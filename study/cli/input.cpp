@@ -10,6 +10,7 @@
 #include "study/config/unit.h"
 #include "study/report/choose_table.h"
 #include "study/report/console.h"
+#include "study/session/earlier_run.h"
 #include "study/session/single_run.h"
 #include "study/store/results_file.h"
 
@@ -98,7 +99,8 @@ StudyInput read_study_input(const CommandLine& line) {
   if (line.seed) texts.push_back(fmt::format("run.seed={}", *line.seed));
   if (line.batch) texts.push_back(fmt::format("search.batch={}", *line.batch));
   const std::vector<Override> set = parse_sets(texts, diagnostics);
-  std::optional<StudyInput> input = read_study(line.inputs.front(), set, diagnostics);
+  std::optional<StudyInput> input =
+      read_study(line.inputs.front(), set, diagnostics, earlier_run_reader());
   throw_if_any(diagnostics);
   apply_run_options(line, input->run);
   return std::move(*input);

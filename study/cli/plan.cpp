@@ -16,13 +16,17 @@
 namespace linkstudy {
 namespace {
 
+int count_processors() {
+  return static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+}
+
 // Those that the job has, or else what this machine can run at once.
 int default_ranks() {
   const std::string text = read_environment("SLURM_NTASKS").value_or("");
   int tasks = 0;
   std::from_chars(text.data(), text.data() + text.size(), tasks);
   if (tasks > 0) return tasks;
-  return static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  return count_processors();
 }
 
 }  // namespace
@@ -35,8 +39,8 @@ int run_plan(const CommandLine& line) {
   throw_if_any(diagnostics);
   print_remarks(study->input().remarks);
   remove_old(line.csv);
-  const plan::Forecast forecast =
-      plan::make_forecast(*study, {line.ranks.value_or(default_ranks()), lanes, line.probe_s});
+  const plan::Forecast forecast = plan::make_forecast(
+      *study, {line.ranks.value_or(default_ranks()), lanes, count_processors(), line.probe_s});
   if (line.csv) write_asked(*line.csv, csv_of(plan::evaluations_table(*study, forecast.work)));
   print_text(line, plan::write_text(study->input(), forecast));
   if (line.json) print_out(plan::write_json(study->input(), forecast) + "\n");

@@ -40,10 +40,12 @@ void read_sigma(MeasuredInput& to, Tree& value, const Reading&) {
 }
 
 void add_signals(Fields<MeasuredInput>& measured) {
-  measured.read("signals", {.type = texts, .meaning = "channels or vectors of the reference run"},
-                [](MeasuredInput& to, Tree& value, const Reading&) {
-                  for (const Tree& one : value.items) to.signals.push_back({one.text, one.at});
-                });
+  measured.read(
+      "signals",
+      {.type = texts, .meaning = "channels or vectors of the reference run, or of the results"},
+      [](MeasuredInput& to, Tree& value, const Reading&) {
+        for (const Tree& one : value.items) to.signals.push_back({one.text, one.at});
+      });
 }
 
 void add_weights(Fields<MeasuredInput>& measured) {
@@ -69,14 +71,15 @@ Fields<LoadCaseInput> experiment_fields() {
                  {.type = name, .meaning = "name of the experiment", .required = true});
   Fields<MeasuredInput> measured;
   add_file(measured, {.required = true, .group = "data"});
+  add_results(measured, {.required = true, .group = "data"});
   add_columns(measured,
               "channel = head of its column in the file, for time and every channel compared; a "
-              "unit stands in brackets at the end of the head");
+              "unit stands in brackets at the end of the head. Of results: = name of the channel "
+              "there, where signals do not do because the model has another one");
   add_signals(measured);
-  add_window(
-      measured,
-      "first and last instant of the data that counts; default: all (of a reference run: all "
-      "but its start)");
+  add_window(measured,
+             "first and last instant of the data that counts; default: all (of a reference run and "
+             "of results: all but its start)");
   add_weights(measured);
   const auto part = [](LoadCaseInput& of) -> MeasuredInput& {
     if (!of.measured) of.measured.emplace();

@@ -152,29 +152,53 @@ void check_sigma(const MeasuredInput& measured, Diagnostics& diagnostics) {
   }
 }
 
-// Either a file and its columns, or a reference run and its signals.
+// A file has columns, a reference run signals, results either.
+void check_signals_and_columns(const LoadCaseInput& experiment, bool takes_signals,
+                               bool takes_columns, const char* what, Diagnostics& diagnostics) {
+  const MeasuredInput& measured = *experiment.measured;
+  if (!takes_signals && !measured.signals.empty()) {
+    diagnostics.add(
+        measured.signals.front().at,
+        fmt::format("signals belong to a run or to results, and this experiment has {}", what),
+        "write columns = { ... } in place of signals");
+  }
+  if (!takes_columns && !measured.columns.empty()) {
+    diagnostics.add(measured.columns.front().channel_at,
+                    fmt::format("columns belong to a file or to results, and this experiment has "
+                                "{}",
+                                what),
+                    "write signals = [...] in place of columns");
+  }
+  if (takes_signals && measured.signals.empty() && (!takes_columns || measured.columns.empty())) {
+    diagnostics.add(experiment.at,
+                    fmt::format("experiment '{}' names nothing to compare", experiment.name),
+                    "signals = [\"closure.S.force\"]");
+  }
+}
+
 void check_source(const LoadCaseInput& experiment, Diagnostics& diagnostics) {
   const MeasuredInput& measured = *experiment.measured;
-  if (experiment.reference) {
-    if (measured.signals.empty()) {
-      diagnostics.add(experiment.at,
-                      fmt::format("experiment '{}' names nothing to compare", experiment.name),
-                      "signals = [\"closure.S.force\"]");
-    }
-    if (!measured.columns.empty()) {
-      diagnostics.add(measured.columns.front().channel_at,
-                      "columns belong to a file, and this experiment has a reference run",
-                      "write signals = [...] in place of columns");
-    }
+  const bool has_results = measured.results && !measured.results->directory.empty();
+  // Which of them it should have is said already.
+  if (!experiment.reference && !measured.results && measured.file.empty()) return;
+  if (measured.results && !has_results) {
+    diagnostics.add(experiment.at,
+                    fmt::format("experiment '{}' names an evaluation or a load case of no results",
+                                experiment.name),
+                    "results = \"results/first\"");
     return;
   }
-  if (!measured.signals.empty()) {
-    diagnostics.add(measured.signals.front().at,
-                    "signals belong to a reference run, and this experiment has a file",
-                    "write columns = { ... } in place of signals");
+  if (experiment.reference) {
+    check_signals_and_columns(experiment, true, false, "a reference run", diagnostics);
+    return;
   }
-  check_columns(measured, fmt::format("experiment '{}'", experiment.name), experiment.at,
-                diagnostics);
+  if (has_results) {
+    const bool has_signals = !measured.signals.empty();
+    check_signals_and_columns(experiment, true, !has_signals, "signals of results", diagnostics);
+  } else {
+    check_signals_and_columns(experiment, false, true, "a file", diagnostics);
+  }
+  check_data(measured, fmt::format("experiment '{}'", experiment.name), experiment.at, diagnostics);
 }
 
 }  // namespace

@@ -10,13 +10,13 @@ std::vector<Diagnostic> check_file(const std::string& path) {
   return diagnostics.sorted();
 }
 
-void check_file(const std::string& path, Diagnostics& diagnostics) {
+void check_file(const std::string& path, Diagnostics& diagnostics, const ReadEarlierRun& earlier) {
   const std::optional<Tree> tree = read_toml_file(path, diagnostics);
   if (!tree) return;
   const std::optional<FileKind> kind = kind_of(*tree, diagnostics);
   if (!kind) return;
   if (*kind != FileKind::model) {
-    read_study(path, {}, diagnostics);
+    read_study(path, {}, diagnostics, earlier);
     return;
   }
   const std::optional<ModelDocument> document = ModelDocument::load(path, diagnostics);

@@ -8,6 +8,7 @@ namespace linkstudy {
 std::vector<Diagnostic> check_file(const std::string& path);
 
 // The same, with what is remarked beside it.
-void check_file(const std::string& path, Diagnostics& diagnostics);
+void check_file(const std::string& path, Diagnostics& diagnostics,
+                const ReadEarlierRun& earlier = {});
 
 }  // namespace linkstudy

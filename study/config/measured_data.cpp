@@ -170,16 +170,14 @@ class CsvReader {
 
 }  // namespace
 
-std::shared_ptr<const MeasuredData> read_measured_data(const std::string& path, const Location& at,
-                                                       const std::vector<WantedColumn>& wanted,
-                                                       Diagnostics& diagnostics) {
+std::optional<std::string> read_data_text(const std::string& path, const Location& at,
+                                          Diagnostics& diagnostics) {
   Diagnostics unreadable;
   std::optional<std::string> text = read_text_file(path, unreadable);
   for (const Diagnostic& one : unreadable.sorted()) {
     diagnostics.add(at, fmt::format("data '{}': {}", path, one.message), one.remedy);
   }
-  if (!text || !unreadable.empty()) return nullptr;
-  return parse_measured_data(std::move(*text), path, at, wanted, diagnostics);
+  return unreadable.empty() ? text : std::nullopt;
 }
 
 std::shared_ptr<const MeasuredData> parse_measured_data(std::string text, const std::string& path,

@@ -36,12 +36,11 @@ struct WantedColumn {
   Location head_at;
 };
 
-// Nothing when anything was reported; a file that cannot be opened at `at`.
-std::shared_ptr<const MeasuredData> read_measured_data(const std::string& path, const Location& at,
-                                                       const std::vector<WantedColumn>& wanted,
-                                                       Diagnostics& diagnostics);
+// The text of a file; one that cannot be opened is reported at `at`.
+std::optional<std::string> read_data_text(const std::string& path, const Location& at,
+                                          Diagnostics& diagnostics);
 
-// The same from the text of the file; `path` is its name in messages.
+// Nothing when anything was reported; `path` is the name of the text in messages.
 std::shared_ptr<const MeasuredData> parse_measured_data(std::string text, const std::string& path,
                                                         const Location& at,
                                                         const std::vector<WantedColumn>& wanted,

@@ -1,9 +1,12 @@
-// What simulated histories are compared with: measured data of a file, or, in a calibration, a run
-// of the model itself.
+// What simulated histories are compared with: measured data of a file, histories of earlier
+// results, or, in a calibration, a run of the model itself.
 #pragma once
+
+#include <functional>
 
 #include "study/config/measured_data.h"
 #include "study/config/override.h"
+#include "study/record/evaluation.h"
 
 namespace linkstudy {
 
@@ -25,12 +28,21 @@ struct SigmaInput {
   Location at;
 };
 
+// One evaluation of earlier results.
+struct ResultsInput {
+  std::string directory;                    // as written
+  std::optional<std::uint64_t> evaluation;  // none: the only one
+  std::string load_case;
+  std::string digest;  // of the results as they were read
+};
+
 struct MeasuredInput {
-  std::string file;  // as written; empty: a run of the model
-  Location file_at;
-  std::vector<WantedColumn> columns;         // of the file
-  std::shared_ptr<const MeasuredData> data;  // of the file
-  std::vector<TraceInput> signals;           // of the run
+  std::string file;  // as written; empty: results, or a run of the model
+  std::optional<ResultsInput> results;
+  Location file_at;                          // of either
+  std::vector<WantedColumn> columns;         // of either; of results without the time
+  std::shared_ptr<const MeasuredData> data;  // of either
+  std::vector<TraceInput> signals;           // of the run, or of results by the same names
   std::optional<TimeWindow> window;          // of the data's own time
   std::vector<SigmaInput> sigma;
   std::optional<double> weight;  // of residuals in SI units, in place of sigma
@@ -40,11 +52,23 @@ struct MeasuredInput {
   Location offset_at;
 };
 
-// A file of measured data, by its name in the study.
+// A file of measured data, or what is taken of earlier results, by its name in the study.
 struct DataText {
   std::string name;
   std::string text;
+  std::string digest{};  // of the results
 };
+
+// The histories of one evaluation, the time among them.
+struct EarlierRun {
+  std::vector<Trace> traces;
+  std::string digest;  // of the results
+};
+
+// Reads what `measured.results` names in the results at `path`; nothing when anything was reported,
+// at `measured.file_at`.
+using ReadEarlierRun = std::function<std::optional<EarlierRun>(
+    const std::string& path, const MeasuredInput& measured, Diagnostics& diagnostics)>;
 
 // [[parameter]] of a calibration.
 enum class ParameterRole { free, fixed, tied };

@@ -48,15 +48,23 @@ void check_reference(ReferenceInput& reference, Tree& table, const Reading& read
   if (model != nullptr || !reference.set.empty()) {
     reading.diagnostics.add(model != nullptr ? model->at : reference.set.front().origin,
                             "a reference is a run, with model and set, or measured data, with file "
-                            "and columns, and this one is both",
+                            "or results, and this one is both",
                             "take one of them out");
   }
-  if (measured.file.empty()) {
-    reading.diagnostics.add(table.at, "this reference has columns or an offset, and no file",
-                            "file = \"measured.csv\"");
+  const bool has_results = measured.results && !measured.results->directory.empty();
+  if (measured.file.empty() && !has_results) {
+    reading.diagnostics.add(
+        table.at,
+        measured.results ? "this reference names an evaluation or a load case of no results"
+                         : "this reference has columns or an offset, and neither file nor results",
+        "file = \"measured.csv\", or results = \"results/first\"");
     return;
   }
-  check_columns(measured, "this reference", measured.file_at, reading.diagnostics);
+  check_data(measured, "this reference", measured.file_at, reading.diagnostics);
+}
+
+ResultsInput& results_of(MeasuredInput& measured) {
+  return measured.results ? *measured.results : measured.results.emplace();
 }
 
 }  // namespace
@@ -68,6 +76,30 @@ void add_file(Fields<MeasuredInput>& measured, KeyRow row) {
     to.file = value.text;
     to.file_at = value.at;
   });
+}
+
+void add_results(Fields<MeasuredInput>& measured, KeyRow row) {
+  row.type = KeyType::text;
+  row.meaning =
+      "directory of earlier results, or a results.h5, relative to this file: histories of a run "
+      "that stand for measurements" +
+      row.meaning;
+  measured.read("results", std::move(row), [](MeasuredInput& to, Tree& value, const Reading&) {
+    results_of(to).directory = value.text;
+    to.file_at = value.at;
+  });
+  measured.read("evaluation",
+                {.type = KeyType::integer,
+                 .meaning = "whose histories are taken; default: the only one of the results",
+                 .range = kNotNegative},
+                [](MeasuredInput& to, Tree& value, const Reading&) {
+                  results_of(to).evaluation = static_cast<std::uint64_t>(value.integer);
+                });
+  measured.read("load_case",
+                {.type = KeyType::name, .meaning = "of the results, where they have load cases"},
+                [](MeasuredInput& to, Tree& value, const Reading&) {
+                  results_of(to).load_case = value.text;
+                });
 }
 
 void add_columns(Fields<MeasuredInput>& measured, const char* meaning) {
@@ -85,11 +117,14 @@ void add_time_offset(Fields<MeasuredInput>& measured, KeyRow row, bool can_be_fi
 void add_reference_data(Fields<ReferenceInput>& reference) {
   Fields<MeasuredInput> measured;
   add_file(measured, {.meaning = ", in place of a run; a match is compared at its instants, by the "
-                                 "straight line between two steps"});
+                                 "straight line between two steps",
+                      .group = "data"});
+  add_results(measured, {.meaning = ", in the same way", .group = "data"});
   add_columns(measured,
               "channel = head of its column in the file, for time and every component that a match "
               "compares (where only one is measured, the match names it: closure.S.force.x); a "
-              "unit stands in brackets at the end of the head");
+              "unit stands in brackets at the end of the head. Of results: = name of the channel "
+              "there; default: reference_signal of the matches");
   add_time_offset(measured, {.meaning = "added to the instants of the data, s; default: 0"}, false);
   const auto part = [](ReferenceInput& of) -> MeasuredInput& {
     if (!of.measured) of.measured.emplace();

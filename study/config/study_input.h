@@ -181,8 +181,9 @@ std::optional<StudyInput> read_study(const ResolvedTexts& texts, const std::stri
                                      Diagnostics& diagnostics);
 
 // `set` are --set overrides: those of the study's own keys (run.seed, search.scan, ...) go there,
-// all others to what they name (precedence.h).
+// all others to what they name (precedence.h). Without `earlier` a file that names earlier results
+// is refused.
 std::optional<StudyInput> read_study(const std::string& path, std::span<const Override> set,
-                                     Diagnostics& diagnostics);
+                                     Diagnostics& diagnostics, const ReadEarlierRun& earlier = {});
 
 }  // namespace linkstudy

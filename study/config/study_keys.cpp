@@ -231,9 +231,11 @@ void add_limits(Fields<Study>& study) {
 void add_tune(Fields<Study>& study) {
   Fields<Study> tune;
   add_parameter(tune);
-  tune.table("range", {.meaning = "where to search", .required = true},
-             range_fields<Study>("[lowest, highest], searched in decades",
-                                 "[lowest, highest], searched linearly"));
+  tune.table(
+      "range", {.meaning = "where to search", .required = true},
+      range_fields<Study>("[lowest, highest], searched in decades",
+                          "[lowest, highest], searched linearly: for values that may be zero "
+                          "or negative"));
   study.tables("tune", {.meaning = "values whose lowest is wanted", .required = true},
                std::move(tune));
   add_objective(study);
@@ -246,16 +248,19 @@ void add_tune(Fields<Study>& study) {
   search.add("batch", &SearchOptions::batch,
              {.meaning = "points evaluated side by side; changes the path of the search",
               .range = {.low = 1, .high = 1024}});
-  search.add("resolution", &SearchOptions::resolution,
-             {.meaning = "width in decades at which the search ends",
-              .range = {.low = 0, .high = 1, .low_is_out = true}});
+  search.add(
+      "resolution", &SearchOptions::resolution,
+      {.meaning = "width in decades, or in parts of a linear range, at which the search ends",
+       .range = {.low = 0, .high = 1, .low_is_out = true}});
   search.add("max_evaluations", &SearchOptions::max_evaluations,
              {.meaning = "budget of evaluations of each answer; default: 200, of two values 1500, "
                          "of more 4000",
               .range = {.low = 1, .high = 1.0e6}});
-  search.add("delta", &SearchOptions::delta,
-             {.meaning = "certificate: (1 - delta) times the answer must fail",
-              .range = {.low = 0, .high = 1, .low_is_out = true, .high_is_out = true}});
+  search.add(
+      "delta", &SearchOptions::delta,
+      {.meaning = "certificate: (1 - delta) times the answer must fail; of a linear range the "
+                  "answer less delta of the range",
+       .range = {.low = 0, .high = 1, .low_is_out = true, .high_is_out = true}});
   search.add("gap", &SearchOptions::gap,
              {.meaning = "of two or three values: decades of the sum of log10 by which a lower "
                          "match is to be excluded, if errors are monotone",

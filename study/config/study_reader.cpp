@@ -23,12 +23,21 @@ namespace {
 using Kind = Tree::Kind;
 using Document = std::shared_ptr<const ModelDocument>;
 
+// Where models and data come from: `texts`, where their files are not to be read, or null.
+struct Sources {
+  const ResolvedTexts* texts = nullptr;
+  const ReadEarlierRun& earlier;
+};
+
 class StudyReader {
  public:
-  // `texts`: of models and data, where their files are not to be read.
   StudyReader(Tree study, std::string file, std::span<const Override> model_set,
-              const ResolvedTexts* texts, Diagnostics& diagnostics)
-      : study_(std::move(study)), model_set_(model_set), texts_(texts), diagnostics_(diagnostics) {
+              const Sources& sources, Diagnostics& diagnostics)
+      : study_(std::move(study)),
+        model_set_(model_set),
+        texts_(sources.texts),
+        earlier_(sources.earlier),
+        diagnostics_(diagnostics) {
     input_.file = std::move(file);
   }
 
@@ -40,7 +49,7 @@ class StudyReader {
     load_models();
     write_command_line();
     if (input_.model) read_parameters();
-    read_measured(input_, texts_ == nullptr ? nullptr : &texts_->data, diagnostics_);
+    read_measured(input_, texts_ == nullptr ? nullptr : &texts_->data, earlier_, diagnostics_);
     require_one_source(model_set_, input_, diagnostics_);
     if (has_rows_) check_cases(input_, written_, model_set_, diagnostics_);
     input_.resolved = study_;
@@ -193,6 +202,7 @@ class StudyReader {
   Tree study_;
   std::span<const Override> model_set_;
   const ResolvedTexts* texts_;
+  const ReadEarlierRun& earlier_;
   Diagnostics& diagnostics_;
   StudyInput input_;
   std::vector<std::string> paths_;
@@ -207,7 +217,7 @@ bool is_study_path(const std::string& path) {
 }
 
 std::optional<StudyInput> read_tree(std::optional<Tree> tree, const std::string& path,
-                                    std::span<const Override> set, const ResolvedTexts* texts,
+                                    std::span<const Override> set, const Sources& sources,
                                     Diagnostics& found, Diagnostics& diagnostics) {
   const std::optional<FileKind> kind = tree ? kind_of(*tree, found) : std::nullopt;
   if (kind && *kind == FileKind::model) {
@@ -228,7 +238,7 @@ std::optional<StudyInput> read_tree(std::optional<Tree> tree, const std::string&
     }
   }
   validate(*tree, schema, found);
-  StudyReader reader(std::move(*tree), path, model_set, texts, found);
+  StudyReader reader(std::move(*tree), path, model_set, sources, found);
   StudyInput input = reader.read(*kind);
   diagnostics.append(found);
   if (!found.empty()) return std::nullopt;
@@ -239,17 +249,17 @@ std::optional<StudyInput> read_tree(std::optional<Tree> tree, const std::string&
 }  // namespace
 
 std::optional<StudyInput> read_study(const std::string& path, std::span<const Override> set,
-                                     Diagnostics& diagnostics) {
+                                     Diagnostics& diagnostics, const ReadEarlierRun& earlier) {
   Diagnostics found;
   std::optional<Tree> tree = read_toml_file(path, found);
-  return read_tree(std::move(tree), path, set, nullptr, found, diagnostics);
+  return read_tree(std::move(tree), path, set, {nullptr, earlier}, found, diagnostics);
 }
 
 std::optional<StudyInput> read_study(const ResolvedTexts& texts, const std::string& file,
                                      Diagnostics& diagnostics) {
   Diagnostics found;
   std::optional<Tree> tree = parse_toml(texts.study, file, found);
-  return read_tree(std::move(tree), file, {}, &texts, found, diagnostics);
+  return read_tree(std::move(tree), file, {}, {&texts, {}}, found, diagnostics);
 }
 
 }  // namespace linkstudy

@@ -8,6 +8,8 @@
 #include <limits>
 #include <map>
 
+#include "study/config/measured_reader.h"
+
 namespace linkstudy {
 namespace {
 
@@ -138,7 +140,7 @@ class MeasuredMatches {
     for (const MeasuredChannel& one : data_.channels) names.push_back(one.channel);
     diagnostics_.add(match.at,
                      fmt::format("'{}' compares {}, which '{}' does not have as a column",
-                                 match.signal, fmt::join(missing, ", "), measured_.file),
+                                 match.signal, fmt::join(missing, ", "), source_name(measured_)),
                      fmt::format("measured are: {}; name a single component in the match",
                                  fmt::join(names, ", ")));
   }

@@ -57,8 +57,10 @@ void read_sigma(const MeasuredInput& input, MeasuredSignal& signal, Diagnostics&
   signal.has_sigma = true;
 }
 
-bool is_inside(const std::optional<TimeWindow>& window, double time) {
-  return !window || (window->first <= time && time <= window->last);
+// Without a window all; of results all but their start, where an unloaded spring never matches.
+bool counts(const MeasuredInput& input, const MeasuredData& data, double time) {
+  if (!input.window) return !input.results || time > data.times.front();
+  return input.window->first <= time && time <= input.window->last;
 }
 
 }  // namespace
@@ -102,7 +104,7 @@ MeasuredSet make_measured_set(const MeasuredInput& input, const MeasuredData& da
     MeasuredSignal signal{channel->name, channel->unit, 1.0, false, {}, {}, measured.at};
     read_sigma(input, signal, diagnostics);
     for (std::size_t i = 0; i < data.times.size(); ++i) {
-      if (std::isnan(measured.values[i]) || !is_inside(input.window, data.times[i])) continue;
+      if (std::isnan(measured.values[i]) || !counts(input, data, data.times[i])) continue;
       signal.times.push_back(data.times[i]);
       signal.values.push_back(measured.values[i]);
     }

@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "study/plan/at_once.h"
+
 namespace linkstudy::plan {
 namespace {
 
 constexpr double kReferencePart = 0.3;        // of the time for measuring
 constexpr std::size_t kMostKindsProbed = 32;  // those with the most runs
 constexpr double kShortestProbe = 0.02;       // s
+constexpr double kSlowdownPart = 0.1;         // of the time for measuring, alone and at once
 constexpr double kAloneOverBeside = 0.5;  // a full pack of lanes takes about as long as two alone
 
 // Kinds with the most to do first.
@@ -25,7 +28,7 @@ std::vector<std::size_t> by_weight(const std::vector<RunKind>& kinds) {
 
 }  // namespace
 
-Costs::Costs(const Evaluator& study, const RunKinds& kinds, int lanes, double seconds)
+Costs::Costs(const Evaluator& study, const RunKinds& kinds, int lanes, int at_once, double seconds)
     : kinds_(kinds), lanes_(lanes), costs_(kinds_.all().size()) {
   measured_.kinds = costs_.size();
   if (costs_.empty()) return;
@@ -36,6 +39,7 @@ Costs::Costs(const Evaluator& study, const RunKinds& kinds, int lanes, double se
   measure_references(study, kReferencePart * seconds);
   measure_kinds(seconds - std::min(measured_.spent_s, 0.5 * seconds));
   fill_gaps();
+  if (at_once > 1) measure_slowdown(at_once, kSlowdownPart * seconds);
 }
 
 void Costs::measure_references(const Evaluator& study, double seconds) {
@@ -66,14 +70,43 @@ void Costs::measure_kinds(double seconds) {
   const double part = std::max(seconds / parts, kShortestProbe);
   for (const std::size_t i : order) {
     const RunKind& kind = kinds_.all()[i];
-    std::vector<Point> points;
-    const std::size_t width = kind.has_constant_steps()
-                                  ? std::min(kind.points.size(), static_cast<std::size_t>(lanes_))
-                                  : 1;
-    for (std::size_t k = 0; k < width; ++k) points.push_back(*kind.points[k]);
+    const std::vector<Point> points = points_beside(kind);
     take(i, {points.data(), 1}, part, costs_[i].alone);
-    if (width > 1) take(i, points, part, costs_[i].beside);
+    if (points.size() > 1) take(i, points, part, costs_[i].beside);
   }
+}
+
+std::vector<Point> Costs::points_beside(const RunKind& kind) const {
+  const std::size_t width = kind.has_constant_steps()
+                                ? std::min(kind.points.size(), static_cast<std::size_t>(lanes_))
+                                : 1;
+  std::vector<Point> points;
+  for (std::size_t k = 0; k < width; ++k) points.push_back(*kind.points[k]);
+  return points;
+}
+
+// Of the kind with the most to do.
+void Costs::measure_slowdown(int at_once, double seconds) {
+  const RunKind& kind = kinds_.all()[by_weight(kinds_.all()).front()];
+  const std::vector<Point> points = points_beside(kind);
+  const double time = std::max(seconds, kShortestProbe);
+  const auto measure = [&] { return probes_[kind.load_case]->seconds_a_step(points, time); };
+  const double alone = measure();
+  const std::vector<double> beside = measure_at_once(at_once, measure);
+  measured_.spent_s += 2.0 * time;
+  double sum = 0.0;
+  for (const double one : beside) sum += one;
+  const double slowdown = sum / static_cast<double>(beside.size()) / alone;
+  if (!std::isfinite(slowdown)) return;  // no step was made
+  measured_.at_once = at_once;
+  measured_.slowdown = std::max(1.0, slowdown);
+}
+
+double Costs::slowdown(int ranks) const {
+  const int most = measured_.at_once;
+  if (most == 1) return 1.0;
+  const double part = static_cast<double>(std::min(ranks, most) - 1) / (most - 1);
+  return 1.0 + part * (measured_.slowdown - 1.0);
 }
 
 // Kinds that were not probed are taken for the nearest that was, by their steps.

@@ -11,18 +11,25 @@ struct Measured {
   std::size_t probed = 0;
   double steps = 0.0;
   double spent_s = 0.0;  // CPU
+  // What a step takes in as many processes at once, over what it takes alone: 1 where each has a
+  // core of its own, up to 2 where two hardware threads share one.
+  int at_once = 1;
+  double slowdown = 1.0;
 };
 
 class Costs {
  public:
-  // Spends about that many seconds of this process on measuring. `lanes`: points side by side.
-  Costs(const Evaluator& study, const RunKinds& kinds, int lanes, double seconds);
+  // Spends about that many seconds of this process on measuring. `lanes`: points side by side;
+  // `at_once`: processes that this machine runs at once of those that are planned.
+  Costs(const Evaluator& study, const RunKinds& kinds, int lanes, int at_once, double seconds);
 
   const Measured& measured() const { return measured_; }
   // All reference runs, CPU s.
   double references_s() const { return references_s_; }
-  // Points that are evaluated together: every load case, one after the other.
+  // Points that are evaluated together: every load case, one after the other. Alone on the machine.
   double pack_s(std::span<const Point> pack) const;
+  // Among so many ranks it takes longer by this.
+  double slowdown(int ranks) const;
 
  private:
   struct KindCost {
@@ -32,6 +39,8 @@ class Costs {
 
   void measure_references(const Evaluator& study, double seconds);
   void measure_kinds(double seconds);
+  void measure_slowdown(int at_once, double seconds);
+  std::vector<Point> points_beside(const RunKind& kind) const;
   void take(std::size_t kind, std::span<const Point> points, double seconds,
             std::optional<RunPace>& pace);
   void fill_gaps();

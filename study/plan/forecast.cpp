@@ -33,7 +33,7 @@ class Layouts {
       for (const auto& pack : form_packs(batch, study_.parameters(), lanes_, ranks)) {
         ++layout.packs;
         layout.widest = std::max(layout.widest, pack.size());
-        seconds.push_back(costs_ == nullptr ? 0.0 : costs_->pack_s(pack));
+        seconds.push_back(costs_ == nullptr ? 0.0 : costs_->slowdown(ranks) * costs_->pack_s(pack));
         work_s += seconds.back();
       }
       wall_s += pull(seconds, ranks).wall_s;
@@ -125,7 +125,8 @@ Forecast make_forecast(Evaluator& study, const ForecastOptions& options) {
   forecast.sizes = find_sizes(study, kinds, forecast.work.most, widest);
   std::optional<Costs> costs;
   if (options.probe_s > 0.0) {
-    costs.emplace(study, kinds, options.lanes, options.probe_s);
+    costs.emplace(study, kinds, options.lanes, std::min(options.ranks, options.processors),
+                  options.probe_s);
     forecast.measured = costs->measured();
     forecast.references_s = costs->references_s();
   }

@@ -1,6 +1,8 @@
 // What a file will take before it runs: evaluations, CPU and wall time for numbers of ranks, memory
 // and disk. Wall time is that of the references, which rank 0 runs one after the other, and then of
-// packs pulled by ranks (form_packs, pull_schedule.h), each rank on a core like this one.
+// packs pulled by ranks (form_packs, pull_schedule.h). How ranks of one machine slow each other
+// down is measured here, with as many at once as this machine runs of them; nodes are taken for its
+// like.
 #pragma once
 
 #include "study/plan/costs.h"
@@ -40,6 +42,7 @@ struct Forecast {
 struct ForecastOptions {
   int ranks = 1;
   int lanes = 1;
+  int processors = 1;    // of this machine
   double probe_s = 2.0;  // CPU time spent on measuring; 0: nothing is measured
 };
 

@@ -84,6 +84,21 @@ void Probe::assume_reference() {
   evaluator_->set_reference(0, std::move(record));
 }
 
+double Probe::seconds_a_step(std::span<const Point> points, double seconds) {
+  double steps = 0.0;
+  const double begin = cpu_seconds();
+  double spent = 0.0;
+  evaluator_->set_timeout(seconds);
+  while (spent < seconds) {
+    for (const Evaluation& one : evaluator_->evaluate(points)) {
+      const double own = evaluator_->worst(RunNumber::steps, one.responses);
+      if (std::isfinite(own)) steps += own;
+    }
+    spent = cpu_seconds() - begin;
+  }
+  return spent / steps;
+}
+
 RunPace Probe::measure(std::span<const Point> points, double seconds) {
   RunPace pace;
   const double begin = cpu_seconds();

@@ -29,6 +29,9 @@ class Probe {
   // is.
   RunPace measure(std::span<const Point> points, double seconds);
 
+  // CPU of a step of runs that are begun again and again for so long.
+  double seconds_a_step(std::span<const Point> points, double seconds);
+
  private:
   void assume_reference();
 

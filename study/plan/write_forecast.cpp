@@ -81,13 +81,16 @@ std::string wall_text(const Forecast& forecast) {
   std::string text = fmt::format("{}{} on {}", is_design(forecast.work) ? "" : "at most ",
                                  duration_text(forecast.most.wall_s),
                                  counted(static_cast<std::uint64_t>(ranks), "rank"));
-  return text + fmt::format(", a core each; more than {} are of no use", forecast.useful_ranks);
+  const Measured& measured = forecast.measured;
+  if (measured.at_once > 1) {
+    text += fmt::format(", where runs take {:.1f} times as long as alone", measured.slowdown);
+  }
+  return text + fmt::format("; more than {} are of no use", forecast.useful_ranks);
 }
 
 Table layouts_table(const std::vector<Layout>& layouts) {
   TableOf<Layout> table("layouts", "layout", layouts);
-  table.add("ranks", "", "MPI ranks, one a core",
-            [](const Layout& one) { return std::int64_t{one.ranks}; });
+  table.add("ranks", "", "MPI ranks", [](const Layout& one) { return std::int64_t{one.ranks}; });
   table.add("packs", "", "tasks that ranks pull",
             [](const Layout& one) { return static_cast<std::int64_t>(one.packs); });
   table.add("widest", "", "evaluations side by side in the widest",
@@ -150,10 +153,9 @@ std::string write_json(const StudyInput& input, const Forecast& forecast) {
       {"memory_bytes", {{"rank", forecast.sizes.rank}, {"first_rank", forecast.sizes.first_rank}}},
       {"disk_bytes", {{"journal", forecast.sizes.journal}, {"results", forecast.sizes.results}}}};
   if (measured.kinds == 0) return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-  json["measured"] = {{"cpu_s", measured.spent_s},
-                      {"steps", measured.steps},
-                      {"kinds", measured.kinds},
-                      {"probed", measured.probed}};
+  json["measured"] = {{"cpu_s", measured.spent_s},   {"steps", measured.steps},
+                      {"kinds", measured.kinds},     {"probed", measured.probed},
+                      {"at_once", measured.at_once}, {"slowdown", measured.slowdown}};
   json["references_cpu_s"] = forecast.references_s;
   json["certain"] = to_json(forecast.asked);
   json["most"] = to_json(forecast.most);

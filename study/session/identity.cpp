@@ -24,6 +24,7 @@ namespace {
 constexpr const char* kResolvedStudy = "resolved_study";
 constexpr const char* kResolvedModel = "resolved_model";
 constexpr const char* kResolvedReference = "resolved_reference";
+constexpr const char* kDigestSuffix = "_digest";
 constexpr const char* kFileSuffix = "_file";
 
 // Settings that change how a study is run and not what it computes.
@@ -73,12 +74,13 @@ std::string data_name(std::size_t i) {
   return fmt::format("data_{}", i);
 }
 
-// The texts of measured data, and the files they are of.
+// The texts of measured data, and the files or earlier results they are of.
 void add_data(const StudyInput& input, std::vector<NamedText>& texts) {
   const std::vector<DataText> data = data_texts(input);
   for (std::size_t i = 0; i < data.size(); ++i) {
     texts.push_back({data_name(i), data[i].text});
     texts.push_back({data_name(i) + kFileSuffix, data[i].name});
+    if (!data[i].digest.empty()) texts.push_back({data_name(i) + kDigestSuffix, data[i].digest});
   }
 }
 

@@ -12,6 +12,7 @@
 #include "study/report/console.h"
 #include "study/schedule/batch_job.h"
 #include "study/session/deadline.h"
+#include "study/session/earlier_run.h"
 #include "study/session/exit_code.h"
 #include "study/session/failure.h"
 #include "study/session/identity.h"
@@ -139,6 +140,7 @@ class Launch {
     const StudyIdentity identity = make_identity(
         options_, *evaluator_, most_evaluations(evaluator_->input(), total_), transport_);
     const std::string directory = directory_of(options_, evaluator_->input());
+    refuse_own_results(evaluator_->input(), directory);
     record_ = std::make_unique<StudyRecord>(directory, identity, options_.fresh);
     log_ = open_log(options_, *record_);
     log_->info("{} ({} ranks)", options_.command, transport_.size());

@@ -73,6 +73,18 @@ const std::vector<Trace>* find_traces(const StudyResults& results, std::uint64_t
   return found == results.traces.end() ? nullptr : &found->traces;
 }
 
+std::vector<std::string> load_cases_with_traces(const StudyResults& results,
+                                                std::uint64_t evaluation) {
+  std::vector<std::string> names;
+  const std::string own = trace_name(evaluation, "");
+  for (const TraceSet& set : results.traces) {
+    if (set.evaluation != static_cast<std::int64_t>(evaluation)) continue;
+    const bool has_case = set.name.size() > own.size();
+    names.push_back(has_case ? set.name.substr(own.size() + 1) : "");
+  }
+  return names;
+}
+
 std::string slug_of(const std::string& name) {
   std::string slug;
   for (const char c : name) {

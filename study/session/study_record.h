@@ -20,6 +20,10 @@ std::string slug_of(const std::string& name);
 const std::vector<Trace>* find_traces(const StudyResults& results, std::uint64_t evaluation,
                                       const std::string& load_case);
 
+// Load cases in which an evaluation has histories; one empty name where there are no load cases.
+std::vector<std::string> load_cases_with_traces(const StudyResults& results,
+                                                std::uint64_t evaluation);
+
 struct StudyIdentity {
   StudyDescription description;
   std::string input_sha256;

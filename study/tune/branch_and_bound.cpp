@@ -63,7 +63,8 @@ class BoundSearch {
     } else if (has_lower_match()) {
       report.end = BoundEnd::lower_match;
     } else if (is_undecided_) {
-      report.end = BoundEnd::undecided;
+      report.end = blocked_by_ ? BoundEnd::step_ends_it : BoundEnd::undecided;
+      report.blocked_by = blocked_by_.value_or(0);
     } else if (open_.empty()) {
       report.end = BoundEnd::closed;
     } else if (!has_budget()) {
@@ -202,6 +203,17 @@ class BoundSearch {
     return best;
   }
 
+  // The softest point in the way of a box that fails by its step, where none is in it for mu.
+  std::optional<std::uint64_t> find_step_failure(const BoundBox& box) const {
+    const KnownPoint* softest = nullptr;
+    for (const KnownPoint& point : in_the_way_) {
+      if (!reaches_above(box.b, point.t)) continue;
+      if (std::isfinite(point.ratio) && point.ratio <= 1.0 + mu_) return std::nullopt;
+      if (softest == nullptr || sum_of(point.t) < sum_of(softest->t)) softest = &point;
+    }
+    return softest == nullptr ? std::nullopt : std::optional(softest->id);
+  }
+
   static double longest_edge(const BoundBox& box) {
     double longest = 0.0;
     for (std::size_t j = 0; j < box.a.size(); ++j) longest = std::max(longest, box.b[j] - box.a[j]);
@@ -227,6 +239,7 @@ class BoundSearch {
       }
       if (longest_edge(box) < log_.options().resolution) {
         is_undecided_ = corners.empty();
+        blocked_by_ = find_step_failure(box);
         waiting.push_back(std::move(box));
         break;
       }
@@ -275,6 +288,7 @@ class BoundSearch {
   std::vector<KnownPoint> proofs_;
   std::vector<KnownPoint> in_the_way_;
   bool is_undecided_ = false;
+  std::optional<std::uint64_t> blocked_by_;
 };
 
 }  // namespace

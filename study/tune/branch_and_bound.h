@@ -7,20 +7,22 @@
 //   and at half its step too where it fails but what its step adds is not known.
 //   Else the box is split before the point in the way, at the distance at which an error that falls
 //   as 1/c would prove; or, where that is near the face, in the middle of its longest edge.
-// A box narrower than the resolution cannot be decided with this mu: where it has the lowest f(a),
-// no smaller gap is to be had, and the search ends. It also ends with a match lower than k*, for
-// the caller to go on from, and with the budget.
+// A box narrower than the resolution cannot be decided: where it has the lowest f(a), no smaller
+// gap is to be had, and the search ends. That is for mu where a point at or below b matches, or
+// nearly; where all of them fail by their step, which proves nothing of softer ones, it is for the
+// step. It also ends with a match lower than k*, for the caller to go on from, and with the budget.
 #pragma once
 
 #include "study/tune/monotone_proof.h"
 
 namespace linkstudy::tuning {
 
-enum class BoundEnd { closed, lower_match, undecided, budget, not_monotone };
+enum class BoundEnd { closed, lower_match, undecided, step_ends_it, budget, not_monotone };
 
 struct BoundReport {
   BoundEnd end = BoundEnd::closed;
   std::size_t evaluations = 0;
+  std::uint64_t blocked_by = 0;  // the evaluation that ends by its step
 };
 
 // `reserve` evaluations are left in the budget.

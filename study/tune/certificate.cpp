@@ -82,7 +82,7 @@ void conclude(Certificate& certificate) {
 }  // namespace
 
 CertificateTerms make_terms(const EvaluationLog& log, const std::vector<double>& point,
-                            const std::vector<double>& margin_decades,
+                            const std::vector<double>& margins,
                             const std::vector<std::vector<double>>& scan) {
   const TuningProblem& problem = log.problem();
   const TuningOptions& options = log.options();
@@ -101,7 +101,7 @@ CertificateTerms make_terms(const EvaluationLog& log, const std::vector<double>&
   terms.slack = options.resolution;
   for (std::size_t i = 0; i < point.size(); ++i) {
     const TunedVariable& variable = problem.variables[i];
-    const double into = std::min(options.neighbourhood, 0.5 * margin_decades[i]);
+    const double into = std::min(options.neighbourhood, 0.5 * margins[i]);
     const bool is_largest = variable.weight < 0.0;
     const double down = is_largest ? into : options.neighbourhood;
     const double up = is_largest ? options.neighbourhood : into;

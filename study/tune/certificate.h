@@ -2,9 +2,9 @@
 // `verify` can run them again and judge anew.
 //   C0  k* is feasible at the base step and at half of it
 //   C1  k* is minimal in each variable: k_i (1 - delta) alone is rejected (fails at one step); of a
-//       largest value k_i / (1 - delta). What the objective leaves free is then also moved by the
-//       neighbourhood to either side. Of a response: both of every variable, as far as the range
-//       goes, are rejected or not better
+//       largest value k_i / (1 - delta); of a linear range k_i -+ delta of it, or its end. What the
+//       objective leaves free is then also moved by the neighbourhood to either side. Of a
+//       response: both of every variable, as far as the range goes, are rejected or not better
 //   C2  no point of the declared scan below k* (smaller objective) is accepted
 //   C3  the error falls in k about k*: f = log10 max(error / tolerance) drops from the lower
 //       neighbour to k* and from k* to the upper one by more than the noise. Noise is the larger
@@ -82,7 +82,7 @@ struct Certificate {
 // The terms for a point: neighbours lie `neighbourhood` decades below along each axis, and above by
 // that or by half the window's margin there, whichever is less; never outside the declared range.
 CertificateTerms make_terms(const EvaluationLog& log, const std::vector<double>& point,
-                            const std::vector<double>& margin_decades,
+                            const std::vector<double>& margins,
                             const std::vector<std::vector<double>>& scan);
 
 // The evaluations the claims need, in a fixed order. Points of the scan below k* that match at the

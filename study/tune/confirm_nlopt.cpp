@@ -179,8 +179,9 @@ void set_up(nlopt::opt& opt, Run& run, const EvaluationLog& log, const std::vect
   std::vector<double> low(start.size());
   std::vector<double> high(start.size());
   for (std::size_t j = 0; j < start.size(); ++j) {
-    low[j] = std::min(0.0, std::log10(log.problem().variables[j].low / start[j]));
-    high[j] = std::max(0.0, std::log10(log.problem().variables[j].high / start[j]));
+    const TunedVariable& variable = log.problem().variables[j];
+    low[j] = std::min(0.0, distance(variable, start[j], variable.low));
+    high[j] = std::max(0.0, distance(variable, start[j], variable.high));
   }
   opt.set_min_objective(&Run::objective, &run);
   opt.add_inequality_mconstraint(&Run::constraints, &run,

@@ -5,12 +5,13 @@
 #include <limits>
 
 #include "study/tune/search_section.h"
+#include "study/tune/variable_axis.h"
 
 namespace linkstudy::tuning {
 namespace {
 
 double neighbour_of(const EvaluationLog& log, double value) {
-  return value * std::pow(10.0, log.options().neighbourhood);
+  return shifted(log.problem().variables.front(), value, log.options().neighbourhood);
 }
 
 // The upper neighbour of the certificate: it also tells a noisy boundary from a narrow window.
@@ -52,11 +53,12 @@ std::optional<double> find_failing_above(const EvaluationLog& log, double value)
   return std::nullopt;
 }
 
-// Values above `from` at doubling distances in decades, up to `ceiling`.
-std::vector<double> make_climb(double from, double ceiling, double first) {
+// Values above `from` at doubling distances, up to `ceiling`.
+std::vector<double> make_climb(const TunedVariable& variable, double from, double ceiling,
+                               double first) {
   std::vector<double> values;
-  for (double up = first; from * std::pow(10.0, up) < ceiling; up *= 2.0) {
-    values.push_back(from * std::pow(10.0, up));
+  for (double up = first; shifted(variable, from, up) < ceiling; up *= 2.0) {
+    values.push_back(shifted(variable, from, up));
   }
   return values;
 }
@@ -68,7 +70,8 @@ void climb(EvaluationLog& log, double value) {
   const double failing = find_failing_above(log, value).value_or(beyond);
   // A failing value nearer than the neighbourhood may be noise: look past it.
   const double ceiling = std::min(beyond, std::max(failing, neighbour_of(log, value)));
-  const std::vector<double> values = make_climb(value, ceiling, 2.0 * log.options().resolution);
+  const std::vector<double> values =
+      make_climb(log.problem().variables.front(), value, ceiling, 2.0 * log.options().resolution);
   const std::size_t group = std::max<std::size_t>(1, log.options().batch / 2);
   for (std::size_t first = 0; first < values.size() && !log.exhausted(); first += group) {
     std::vector<Request> requests;
@@ -109,7 +112,7 @@ HighLimit find_high_limit(const Answer& failing) {
 }  // namespace
 
 std::optional<double> find_lowest_accepted(const EvaluationLog& log) {
-  return find_accepted_from(log, 0.0);
+  return find_accepted_from(log, -std::numeric_limits<double>::infinity());
 }
 
 std::optional<double> find_lowest_candidate(const EvaluationLog& log) {
@@ -152,7 +155,7 @@ Window find_window(EvaluationLog& log, double low) {
     window.high = bracket.feasible;
     window.high_limited_by = find_high_limit(log.find({bracket.failing}, 1.0)->answer);
   }
-  window.margin_decades = std::log10(window.high / window.low);
+  window.margin = distance(log.problem().variables.front(), window.low, window.high);
   return window;
 }
 

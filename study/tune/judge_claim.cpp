@@ -109,8 +109,9 @@ Finding judge_minimal(const CertificateTerms& terms, const Evidence& evidence) {
       return {Verdict::inconclusive,
               fmt::format("the range of '{}' ends at {:.6g}, {}", variable.path,
                           is_low ? variable.low : variable.high,
-                          is_low ? "above k (1 - delta): lower its low end"
-                                 : "below k / (1 - delta): raise its high end")};
+                          !variable.is_logarithmic ? "where k lies: extend it"
+                          : is_low                 ? "above k (1 - delta): lower its low end"
+                                                   : "below k / (1 - delta): raise its high end")};
     }
   }
   Finding finding = judge_rejected(terms, evidence, points);
@@ -145,7 +146,7 @@ std::vector<Sample> samples_along(const CertificateTerms& terms, const Evidence&
   std::vector<Sample> samples;
   for (const Observation& observation : evidence) {
     std::vector<double> x = observation.request.x;
-    const double value = way_of(terms, i) * std::log10(x[i] / terms.point[i]);
+    const double value = way_of(terms, i) * distance(terms.variables[i], terms.point[i], x[i]);
     const bool inside =
         is_below(terms.lower_neighbours[i], x) && is_below(x, terms.upper_neighbours[i]);
     x[i] = terms.point[i];
@@ -176,7 +177,7 @@ Finding judge_falling(const CertificateTerms& terms, const Evidence& evidence, s
   const std::vector<Sample> samples = samples_along(terms, evidence, i);
   const double way = way_of(terms, i);
   const auto reach = [&](const std::vector<std::vector<double>>& neighbours) {
-    return way * std::log10(neighbours[i][i] / terms.point[i]);
+    return way * distance(terms.variables[i], terms.point[i], neighbours[i][i]);
   };
   const auto& failing = way > 0.0 ? terms.lower_neighbours : terms.upper_neighbours;
   const auto& matching = way > 0.0 ? terms.upper_neighbours : terms.lower_neighbours;
@@ -243,13 +244,24 @@ Finding judge_proof(const CertificateTerms& terms, const Evidence& evidence) {
                       proof.doubts)};
 }
 
+// A linear range may end where values do, as at zero: then its end stands for what lies beyond.
+double moved_in_range(const TunedVariable& variable, double value, double distance) {
+  const double moved = move_along(variable, value, distance);
+  return moved == value ? shifted(variable, value, distance) : moved;
+}
+
 }  // namespace
 
 std::vector<std::vector<double>> points_about(const CertificateTerms& terms, std::size_t i) {
   std::vector<double> reduced = terms.point;
   std::vector<double> raised = terms.point;
-  reduced[i] *= 1.0 - terms.delta;
-  raised[i] /= 1.0 - terms.delta;
+  if (terms.variables[i].is_logarithmic) {
+    reduced[i] *= 1.0 - terms.delta;
+    raised[i] /= 1.0 - terms.delta;
+  } else {
+    reduced[i] = moved_in_range(terms.variables[i], terms.point[i], -terms.delta);
+    raised[i] = moved_in_range(terms.variables[i], terms.point[i], terms.delta);
+  }
   if (terms.response) {
     std::vector<std::vector<double>> points = {reduced, raised};
     std::erase_if(points, [&](const auto& x) { return !is_in_range(terms, x); });
@@ -294,9 +306,19 @@ std::string minimality_statement(const CertificateTerms& terms) {
   std::string text = fmt::format("every k_i (1 - {:g}) alone fails", terms.delta);
   if (has_weight(0.0)) text = fmt::format("k (1 - {:g}) fails", terms.delta);
   if (has_weight(-1.0)) text = fmt::format("k / (1 - {:g}) fails", terms.delta);
+  const bool is_linear = std::ranges::any_of(terms.variables, [](const TunedVariable& variable) {
+    return variable.weight != 0.0 && !variable.is_logarithmic;
+  });
+  if (is_linear) {
+    text = fmt::format("k {} {:g} of its range, or its end, fails", has_weight(-1.0) ? '+' : '-',
+                       terms.delta);
+  }
   if (has_weight(0.0)) {
     text +=
-        fmt::format(", also with a free value {:g} decades to either side", terms.neighbourhood);
+        fmt::format(", also with a free value {:g} decades{} to either side", terms.neighbourhood,
+                    std::ranges::count(terms.variables, false, &TunedVariable::is_logarithmic) > 0
+                        ? ", or parts of a linear range,"
+                        : "");
   }
   return text;
 }

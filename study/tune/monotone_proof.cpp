@@ -93,7 +93,8 @@ std::vector<Position> keep_maximal(const std::vector<Position>& proofs) {
 
 bool can_be_proven(const TuningProblem& problem) {
   const std::size_t n = problem.variables.size();
-  return is_lowest_sum(problem) && (n == 2 || n == 3);
+  return is_lowest_sum(problem) && (n == 2 || n == 3) &&
+         std::ranges::count(problem.variables, false, &TunedVariable::is_logarithmic) == 0;
 }
 
 Position position_of(const std::vector<double>& x) {

@@ -29,13 +29,14 @@ bool matches_at_base(const EvaluationLog& log, double v) {
 // Evaluates values below at growing distances, farther where all of them match.
 void look_below(EvaluationLog& axis, double v) {
   const TuningOptions& options = axis.options();
-  const double low = axis.problem().variables.front().low;
+  const TunedVariable& variable = axis.problem().variables.front();
+  const double low = variable.low;
   double reach = options.resolution;
   double lowest = v;
   while (lowest > low && !axis.exhausted()) {
     std::vector<Request> requests;
     for (int i = 0; i < 4; ++i, reach *= 4.0) {
-      const double below = std::max(low, v * std::pow(10.0, -reach));
+      const double below = std::max(low, shifted(variable, v, -reach));
       requests.push_back({{below}, 1.0, "section"});
       lowest = below;
     }
@@ -45,10 +46,11 @@ void look_below(EvaluationLog& axis, double v) {
 }
 
 void look_above(EvaluationLog& axis, double v) {
-  const double high = axis.problem().variables.front().high;
+  const TunedVariable& variable = axis.problem().variables.front();
+  const double high = variable.high;
   std::vector<Request> requests;
-  for (double rise = kFirstRise; v * std::pow(10.0, rise) < high; rise *= 2.0) {
-    requests.push_back({{v * std::pow(10.0, rise)}, 1.0, "window"});
+  for (double rise = kFirstRise; shifted(variable, v, rise) < high; rise *= 2.0) {
+    requests.push_back({{shifted(variable, v, rise)}, 1.0, "window"});
   }
   requests.push_back({{high}, 1.0, "window"});
   axis.evaluate(requests);
@@ -82,7 +84,7 @@ void find_low_end(EvaluationLog& axis, double v, Window& window) {
     low = search_section(axis, {*(at - 1), low}, settings).feasible;
   }
   window.low = low;
-  window.margin_decades = std::log10(window.high / low);
+  window.margin = distance(axis.problem().variables.front(), low, window.high);
 }
 
 Window find_axis_window(AxisSearch& axis) {

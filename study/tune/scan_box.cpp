@@ -10,8 +10,8 @@ namespace {
 
 // At part u of the range.
 double value_at_part(const TunedVariable& variable, double u) {
-  const double low = std::log10(variable.low);
-  const double high = std::log10(variable.high);
+  const double low = position_of(variable, variable.low);
+  const double high = position_of(variable, variable.high);
   return from_axis(variable, low + u * (high - low));
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "study/tune/variable_axis.h"
+
 namespace linkstudy::tuning {
 namespace {
 
@@ -49,13 +51,14 @@ struct Span {
 // Values between which a finite failing point is neither plainly below nor plainly above: the
 // feasible points, or the smallest ratio where there are none.
 Span find_valley(const std::vector<ScanPoint>& points) {
-  Span feasible{std::numeric_limits<double>::infinity(), 0.0};
+  constexpr double kEnd = std::numeric_limits<double>::infinity();
+  Span feasible{kEnd, -kEnd};
   for (const ScanPoint& point : points) {
     if (point.side == Side::feasible) {
       feasible = {std::min(feasible.low, point.value), std::max(feasible.high, point.value)};
     }
   }
-  if (feasible.high > 0.0) return feasible;
+  if (feasible.low <= feasible.high) return feasible;
   const auto best = std::min_element(
       points.begin(), points.end(), [](const auto& a, const auto& b) { return a.ratio < b.ratio; });
   return {best->value, best->value};
@@ -91,29 +94,47 @@ double known_log_ratio(const EvaluationLog& log, double value) {
 
 // A cause is a cliff: how high the ratio would be behind it bounds nothing, only the other end
 // does.
-IntervalBound bound_beside_failure(double a, double log_ratio_a, double b, double log_ratio_b) {
-  const double width = std::log10(b / a);
-  const double middle = std::sqrt(a) * std::sqrt(b);
+IntervalBound bound_beside_failure(const TunedVariable& variable, double a, double log_ratio_a,
+                                   double b, double log_ratio_b, const Steepest& steepest) {
+  const double width = distance(variable, a, b);
+  const double middle = midway(variable, a, b);
   if (log_ratio_b >= 12.0) {
-    return {log_ratio_a - kSteepestFall * width, middle};
+    return {log_ratio_a - steepest.fall * width, middle};
   }
   if (log_ratio_a >= 12.0) {
-    return {log_ratio_b - kSteepestRise * width, middle};
+    return {log_ratio_b - steepest.rise * width, middle};
   }
-  return bound_between(a, log_ratio_a, b, log_ratio_b);
+  return bound_between(variable, a, log_ratio_a, b, log_ratio_b, steepest);
+}
+
+Steepest find_steepest(const EvaluationLog& log, const std::vector<double>& values) {
+  const TunedVariable& variable = log.problem().variables.front();
+  Steepest steepest;
+  if (variable.is_logarithmic) return steepest;
+  for (std::size_t i = 0; i + 1 < values.size(); ++i) {
+    const double a = known_log_ratio(log, values[i]);
+    const double b = known_log_ratio(log, values[i + 1]);
+    if (a >= 12.0 || b >= 12.0) continue;
+    const double slope = 2.0 * std::abs(b - a) / distance(variable, values[i], values[i + 1]);
+    steepest = {std::max(steepest.fall, slope), std::max(steepest.rise, slope)};
+  }
+  return steepest;
 }
 
 // Intervals that could still hide a window, lowest bound first.
 std::vector<Split> find_splits(const EvaluationLog& log) {
+  const TunedVariable& variable = log.problem().variables.front();
   const std::vector<double> values = log.base_values();
+  const Steepest steepest = find_steepest(log, values);
   const double narrowest = 4.0 * log.options().resolution;
   std::vector<Split> splits;
   for (std::size_t i = 0; i + 1 < values.size(); ++i) {
     const double a = known_log_ratio(log, values[i]);
     const double b = known_log_ratio(log, values[i + 1]);
     const bool both_failed = a >= 12.0 && b >= 12.0;
-    if (both_failed || std::log10(values[i + 1] / values[i]) <= narrowest) continue;
-    const IntervalBound bound = bound_beside_failure(values[i], a, values[i + 1], b);
+    if (both_failed || distance(variable, values[i], values[i + 1]) <= narrowest) continue;
+    const IntervalBound bound =
+        bound_beside_failure(variable, values[i], a, values[i + 1], b, steepest);
     if (bound.log_ratio <= 0.0) {
       splits.push_back({bound.log_ratio, bound.value});
     }
@@ -127,10 +148,10 @@ std::vector<Split> find_splits(const EvaluationLog& log) {
 
 std::vector<double> make_scan_values(const TunedVariable& variable, std::size_t count) {
   std::vector<double> values(count);
-  const double decades = std::log10(variable.high / variable.low);
+  const double length = distance(variable, variable.low, variable.high);
   for (std::size_t i = 0; i < count; ++i) {
     const double part = static_cast<double>(i) / static_cast<double>(count - 1);
-    values[i] = variable.low * std::pow(10.0, part * decades);
+    values[i] = shifted(variable, variable.low, part * length);
   }
   values.back() = variable.high;
   return values;
@@ -140,14 +161,15 @@ double compute_log_ratio(double ratio) {
   return std::isnan(ratio) ? 12.0 : std::clamp(std::log10(ratio), -12.0, 12.0);
 }
 
-IntervalBound bound_between(double a, double log_ratio_a, double b, double log_ratio_b) {
-  const double width = std::log10(b / a);
+IntervalBound bound_between(const TunedVariable& variable, double a, double log_ratio_a, double b,
+                            double log_ratio_b, const Steepest& steepest) {
+  const double width = distance(variable, a, b);
   const double meet =
-      (log_ratio_a - log_ratio_b + kSteepestRise * width) / (kSteepestFall + kSteepestRise);
+      (log_ratio_a - log_ratio_b + steepest.rise * width) / (steepest.fall + steepest.rise);
   // Away from the ends, so that a split always shortens both parts.
   const double offset = std::clamp(meet, 0.1 * width, 0.9 * width);
   const double attained = std::clamp(meet, 0.0, width);
-  return {log_ratio_a - kSteepestFall * attained, a * std::pow(10.0, offset)};
+  return {log_ratio_a - steepest.fall * attained, shifted(variable, a, offset)};
 }
 
 std::vector<ScanPoint> classify_points(const EvaluationLog& log) {

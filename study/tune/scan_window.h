@@ -14,7 +14,8 @@
 // are left alone, the others are split, lowest bound first. Beside a point that ended with a cause
 // only the other end counts, since a window may end at a cliff of stability. What remains out of
 // reach is a window between two points that both ended with a cause, and one that falls more
-// steeply.
+// steeply. Along a linear range 1/c has any slope: there both bounds are twice the steepest slope
+// between neighbours that were seen, where that is more.
 #pragma once
 
 #include <string_view>
@@ -57,18 +58,25 @@ struct ScanPoint {
   bool declared = false;  // of the scan or its refinement
 };
 
-// The declared scan of one variable, ends exact.
+// The declared scan of one variable: equal distances along its axis, ends exact.
 std::vector<double> make_scan_values(const TunedVariable& variable, std::size_t count);
 
 // log10 of the ratio kept in [-12, 12], so that zero and failed answers stay comparable.
 double compute_log_ratio(double ratio);
+
+// Bounds of the slope of the log ratio along an axis.
+struct Steepest {
+  double fall = kSteepestFall;
+  double rise = kSteepestRise;
+};
 
 // Lower bound of the log ratio between two values a < b, and where it is attained.
 struct IntervalBound {
   double log_ratio = 0.0;
   double value = 0.0;
 };
-IntervalBound bound_between(double a, double log_ratio_a, double b, double log_ratio_b);
+IntervalBound bound_between(const TunedVariable& variable, double a, double log_ratio_a, double b,
+                            double log_ratio_b, const Steepest& steepest = {});
 
 // Every point evaluated at the base step, ascending, with its side.
 std::vector<ScanPoint> classify_points(const EvaluationLog& log);

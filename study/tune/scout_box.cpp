@@ -34,8 +34,8 @@ class Scout {
     std::vector<double> high(n);
     std::vector<double> t(n);
     for (std::size_t j = 0; j < n; ++j) {
-      low[j] = std::log10(problem_.variables[j].low);
-      high[j] = std::log10(problem_.variables[j].high);
+      low[j] = position_of(problem_.variables[j], problem_.variables[j].low);
+      high[j] = position_of(problem_.variables[j], problem_.variables[j].high);
       t[j] = 0.5 * (low[j] + high[j]);
     }
     opt.set_lower_bounds(low);

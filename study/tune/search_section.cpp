@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "study/tune/scan_window.h"
+#include "study/tune/variable_axis.h"
 
 namespace linkstudy::tuning {
 namespace {
@@ -13,20 +14,28 @@ namespace {
 // the boundary and the next bracket is narrow enough.
 constexpr double kClose = 0.45;
 
+constexpr double kLeastSlope = 0.3;
+
 struct Slopes {
   double least = 0.0;
   double most = 0.0;
 };
 
-Slopes allowed_slopes(WindowEnd end) {
-  return end == WindowEnd::lower ? Slopes{-2.0, -0.3} : Slopes{0.3, 4.0};
+Slopes allowed_slopes(const SectionSettings& settings) {
+  const bool is_lower = settings.end == WindowEnd::lower;
+  constexpr double kMost = 1e6;
+  if (!settings.variable.is_logarithmic) {
+    return is_lower ? Slopes{-kMost, -kLeastSlope} : Slopes{kLeastSlope, kMost};
+  }
+  return is_lower ? Slopes{-2.0, -kLeastSlope} : Slopes{kLeastSlope, 4.0};
 }
 
-// log10 of the value where the ratio is estimated to be 1, from the end nearer to it.
-double estimate_boundary(const Bracket& bracket, const EndRatios& ends, WindowEnd end) {
-  const double failing = std::log10(bracket.failing);
-  const double feasible = std::log10(bracket.feasible);
-  const Slopes allowed = allowed_slopes(end);
+// Where on the axis the ratio is estimated to be 1, from the end nearer to it.
+double estimate_boundary(const Bracket& bracket, const EndRatios& ends,
+                         const SectionSettings& settings) {
+  const double failing = position_of(settings.variable, bracket.failing);
+  const double feasible = position_of(settings.variable, bracket.feasible);
+  const Slopes allowed = allowed_slopes(settings);
   const double slope = std::clamp((ends.feasible - ends.failing) / (feasible - failing),
                                   allowed.least, allowed.most);
   return ends.failing < -ends.feasible ? failing - ends.failing / slope
@@ -34,12 +43,13 @@ double estimate_boundary(const Bracket& bracket, const EndRatios& ends, WindowEn
 }
 
 void add_about_estimate(std::vector<double>& places, double estimate, const Bracket& bracket,
-                        double resolution, std::size_t count) {
-  const double close = kClose * resolution;
+                        const SectionSettings& settings, std::size_t count) {
+  const TunedVariable& variable = settings.variable;
+  const double close = kClose * settings.resolution;
   if (count == 1) {
     // Approach from the far end: the two ends then close in turn.
-    const double to_feasible = std::abs(std::log10(bracket.feasible) - estimate);
-    const double to_failing = std::abs(std::log10(bracket.failing) - estimate);
+    const double to_feasible = std::abs(position_of(variable, bracket.feasible) - estimate);
+    const double to_failing = std::abs(position_of(variable, bracket.failing) - estimate);
     const bool feasible_nearer = to_feasible < to_failing;
     const double toward = bracket.failing < bracket.feasible ? -close : close;
     places.push_back(estimate + (feasible_nearer ? toward : -toward));
@@ -47,29 +57,31 @@ void add_about_estimate(std::vector<double>& places, double estimate, const Brac
   }
   places.insert(places.end(), {estimate - close, estimate + close});
   if (count >= 6) {
-    const double wide = std::sqrt(close * width_in_decades(bracket));
+    const double wide = std::sqrt(close * width_of(variable, bracket));
     places.insert(places.end(), {estimate - wide, estimate + wide});
   }
 }
 
-void add_equal_sections(std::vector<double>& places, const Bracket& bracket, std::size_t count) {
-  const double low = std::log10(std::min(bracket.failing, bracket.feasible));
+void add_equal_sections(std::vector<double>& places, const TunedVariable& variable,
+                        const Bracket& bracket, std::size_t count) {
+  const double low = position_of(variable, std::min(bracket.failing, bracket.feasible));
   for (std::size_t i = 1; i <= count; ++i) {
-    places.push_back(low + width_in_decades(bracket) * static_cast<double>(i) /
+    places.push_back(low + width_of(variable, bracket) * static_cast<double>(i) /
                                static_cast<double>(count + 1));
   }
 }
 
 // Values inside the bracket, no two closer than the separation.
-std::vector<double> keep_inside(std::vector<double> places, const Bracket& bracket,
-                                double separation) {
+std::vector<double> keep_inside(std::vector<double> places, const TunedVariable& variable,
+                                const Bracket& bracket, double separation) {
   std::sort(places.begin(), places.end());
-  double previous = std::log10(std::min(bracket.failing, bracket.feasible));
-  const double last = std::log10(std::max(bracket.failing, bracket.feasible)) - separation;
+  double previous = position_of(variable, std::min(bracket.failing, bracket.feasible));
+  const double last =
+      position_of(variable, std::max(bracket.failing, bracket.feasible)) - separation;
   std::vector<double> values;
   for (const double place : places) {
     if (place >= previous + separation && place <= last) {
-      values.push_back(std::pow(10.0, place));
+      values.push_back(value_at(variable, place));
       previous = place;
     }
   }
@@ -89,11 +101,11 @@ EndRatios ratios_at(const EvaluationLog& log, const Bracket& bracket, Steps step
           compute_log_ratio(judged_ratio(log, bracket.feasible, steps).value_or(unknown))};
 }
 
-// Distance from the failing end in decades grows toward the feasible end.
+// Distance from the failing end grows toward the feasible end.
 void tighten_lower(const EvaluationLog& log, std::vector<double> values, Steps steps,
                    Bracket& bracket) {
   std::sort(values.begin(), values.end(), [&](double a, double b) {
-    return std::abs(std::log(a / bracket.failing)) < std::abs(std::log(b / bracket.failing));
+    return std::abs(a - bracket.failing) < std::abs(b - bracket.failing);
   });
   for (const double value : values) {
     const std::optional<double> ratio = judged_ratio(log, value, steps);
@@ -132,8 +144,8 @@ std::vector<Request> make_requests(const std::vector<double>& values,
 
 }  // namespace
 
-double width_in_decades(const Bracket& bracket) {
-  return std::abs(std::log10(bracket.feasible / bracket.failing));
+double width_of(const TunedVariable& variable, const Bracket& bracket) {
+  return std::abs(distance(variable, bracket.failing, bracket.feasible));
 }
 
 std::vector<double> place_section(const Bracket& bracket, const EndRatios& ends,
@@ -142,32 +154,35 @@ std::vector<double> place_section(const Bracket& bracket, const EndRatios& ends,
   std::vector<double> places;
   const bool has_slope = std::abs(ends.failing) < 12.0 && std::abs(ends.feasible) < 12.0;
   if (has_slope && !equal_sections) {
-    const double estimate = estimate_boundary(bracket, ends, settings.end);
-    add_about_estimate(places, estimate, bracket, settings.resolution, count);
+    const double estimate = estimate_boundary(bracket, ends, settings);
+    add_about_estimate(places, estimate, bracket, settings, count);
   }
-  add_equal_sections(places, bracket, count - std::min(count, places.size()));
-  const double separation = std::min(0.05 * settings.resolution, 0.1 * width_in_decades(bracket));
-  std::vector<double> values = keep_inside(std::move(places), bracket, separation);
-  if (values.empty()) values.push_back(std::sqrt(bracket.failing) * std::sqrt(bracket.feasible));
+  const TunedVariable& variable = settings.variable;
+  add_equal_sections(places, variable, bracket, count - std::min(count, places.size()));
+  const double separation = std::min(0.05 * settings.resolution, 0.1 * width_of(variable, bracket));
+  std::vector<double> values = keep_inside(std::move(places), variable, bracket, separation);
+  if (values.empty()) values.push_back(midway(variable, bracket.failing, bracket.feasible));
   return values;
 }
 
-Bracket search_section(EvaluationLog& log, Bracket bracket, const SectionSettings& settings) {
+Bracket search_section(EvaluationLog& log, Bracket bracket, SectionSettings settings) {
+  settings.variable = log.problem().variables.front();
+  const auto width = [&] { return width_of(settings.variable, bracket); };
   const std::size_t per_value = settings.steps == Steps::both ? 2 : 1;
   const std::size_t count = std::max<std::size_t>(1, log.options().batch / per_value);
   bool equal_sections = false;
-  while (width_in_decades(bracket) > settings.resolution && !log.exhausted()) {
+  while (width() > settings.resolution && !log.exhausted()) {
     const std::vector<double> values = place_section(
         bracket, ratios_at(log, bracket, settings.steps), settings, count, equal_sections);
     log.evaluate(make_requests(values, settings));
-    const double before = width_in_decades(bracket);
+    const double before = width();
     if (settings.end == WindowEnd::lower) {
       tighten_lower(log, values, settings.steps, bracket);
     } else {
       tighten_upper(log, values, settings.steps, bracket);
     }
-    equal_sections = width_in_decades(bracket) > 0.5 * before;
-    if (width_in_decades(bracket) == before) {
+    equal_sections = width() > 0.5 * before;
+    if (width() == before) {
       break;  // every answer was cut off by the budget
     }
   }

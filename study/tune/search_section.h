@@ -3,7 +3,8 @@
 // A round evaluates up to `batch` values inside the bracket: a pair close about a log-log secant
 // estimate of where ratio = 1, a wider pair, and equal sections for the rest. The secant's slope
 // d log(ratio) / d log(value) is kept in [-2, -0.3] at the lower end (the error falls about as
-// 1/c) and in [0.3, 4] at the upper end. A bracket that was not at least halved by a round gets
+// 1/c) and in [0.3, 4] at the upper end; on a linear axis, where slopes depend on the range, only
+// its sign and a least size are kept. A bracket that was not at least halved by a round gets
 // equal sections in the next, so the number of rounds is bounded for any error function.
 //
 // Lower end: the bracket closes on the lowest feasible value seen. Upper end: on the first failing
@@ -28,6 +29,7 @@ struct SectionSettings {
   Steps steps = Steps::base;
   double resolution = 1e-3;  // decades
   std::string purpose;
+  TunedVariable variable{};  // whose axis it is; search_section takes that of the log
 };
 
 // log10 ratios at the ends of a bracket, kept in [-12, 12].
@@ -42,8 +44,8 @@ std::vector<double> place_section(const Bracket& bracket, const EndRatios& ends,
                                   bool equal_sections);
 
 // Closes the bracket to the resolution, or as far as the budget goes.
-Bracket search_section(EvaluationLog& log, Bracket bracket, const SectionSettings& settings);
+Bracket search_section(EvaluationLog& log, Bracket bracket, SectionSettings settings);
 
-double width_in_decades(const Bracket& bracket);
+double width_of(const TunedVariable& variable, const Bracket& bracket);
 
 }  // namespace linkstudy::tuning

@@ -7,6 +7,7 @@
 
 #include "study/tune/lockstep.h"
 #include "study/tune/polish_point.h"
+#include "study/tune/variable_axis.h"
 
 namespace linkstudy::tuning {
 namespace {
@@ -24,9 +25,10 @@ struct RankedPoint {
   }
 };
 
-bool is_near_start(const std::vector<double>& a, const std::vector<double>& b) {
+bool is_near_start(const TuningProblem& problem, const std::vector<double>& a,
+                   const std::vector<double>& b) {
   for (std::size_t j = 0; j < a.size(); ++j) {
-    if (std::abs(std::log10(b[j] / a[j])) > kApart) return false;
+    if (std::abs(distance(problem.variables[j], a[j], b[j])) > kApart) return false;
   }
   return true;
 }
@@ -44,7 +46,7 @@ std::vector<std::vector<double>> choose_starts(const EvaluationLog& log, std::si
   std::vector<std::vector<double>> starts;
   for (const RankedPoint& point : ranked) {
     const bool is_new = std::ranges::none_of(
-        starts, [&](const auto& other) { return is_near_start(other, point.x); });
+        starts, [&](const auto& other) { return is_near_start(log.problem(), other, point.x); });
     if (is_new) starts.push_back(point.x);
     if (starts.size() == count) break;
   }

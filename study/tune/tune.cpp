@@ -66,11 +66,14 @@ void describe_empty_window(EvaluationLog& log, TuningResult& result) {
     result.reason = budget_reason(log);
     return;
   }
-  result.suggestion = suggest_step(log);
   result.status = TuningStatus::infeasible;
   describe_nearest(log, result);
-  result.reason =
-      "no point of the range matches" + nearest_text(result) + ": " + result.suggestion->message;
+  result.reason = "no point of the range matches" + nearest_text(result);
+  // What it takes for granted holds of stiffness, which has no linear range.
+  if (result.problem.variables.front().is_logarithmic) {
+    result.suggestion = suggest_step(log);
+    result.reason += ": " + result.suggestion->message;
+  }
   doubt_no_match(log, result);
 }
 
@@ -93,7 +96,7 @@ CertificateTerms terms_at(const EvaluationLog& log, double value, const Window& 
   for (const double one : make_scan_values(log.problem().variables.front(), log.options().scan)) {
     scan.push_back({one});
   }
-  return make_terms(log, {value}, {window.margin_decades}, scan);
+  return make_terms(log, {value}, {window.margin}, scan);
 }
 
 void gather_evidence(EvaluationLog& log, Search& search) {
@@ -140,7 +143,7 @@ void add_notes(const TuningOptions& options, TuningResult& result) {
     result.notes.push_back("the matching values do not form one interval: noise or a resonance");
   }
   note_coarse_step(result);
-  if (window.margin_decades < 10.0 * options.resolution) {
+  if (window.margin < 10.0 * options.resolution) {
     result.notes.push_back("the window is hardly wider than the resolution: use a smaller step");
   }
   if (result.nlopt.found_lower) {

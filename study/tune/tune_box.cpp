@@ -87,7 +87,7 @@ class BoxTuning {
     const std::size_t kept = 6 + 4 * point_.size();
     windows_ = find_windows(log_, point_, std::min(kept, log_.remaining()));
     std::vector<double> margins;
-    for (std::size_t j = 0; j < point_.size(); ++j) margins.push_back(windows_[j].margin_decades);
+    for (std::size_t j = 0; j < point_.size(); ++j) margins.push_back(windows_[j].margin);
     terms_ = make_terms(log_, point_, margins, scan_);
     log_.evaluate(list_requests(terms_, log_));
     log_.evaluate(list_requests(terms_, log_));  // half steps of what the first round showed
@@ -118,8 +118,26 @@ class BoxTuning {
     const BoundEnd end = bound_ ? bound_->end : BoundEnd::closed;
     if (log_.remaining() == 0 || end == BoundEnd::budget) return "; " + budget_reason(log_);
     if (end == BoundEnd::undecided) return "; with this mu no smaller gap can be proven";
+    if (end == BoundEnd::step_ends_it) return say_step_failure();
     if (end == BoundEnd::not_monotone) return "; such errors are not monotone";
     return {};
+  }
+
+  // A range that reaches far past what the step can run.
+  std::string say_step_failure() const {
+    const auto& all = log_.observations();
+    const auto seen = std::ranges::find_if(
+        all, [&](const Observation& one) { return one.answer.id == bound_->blocked_by; });
+    if (seen == all.end()) return {};
+    const bool has_ended = seen->answer.status != Cause::ok;
+    return fmt::format(
+        "; what lies below {:.4g} cannot be excluded at this step, whatever mu: the run there {} "
+        "(evaluation {}) and tells nothing of softer ones; end the ranges where runs are stable, "
+        "or take a smaller step",
+        fmt::join(seen->request.x, ", "),
+        has_ended ? fmt::format("ends as {}", linkstudy::name_of(seen->answer.status))
+                  : std::string("fails by its step"),
+        seen->answer.id);
   }
 
   void describe_no_match() {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <set>
 
+#include "study/tune/variable_axis.h"
+
 namespace linkstudy::tuning {
 namespace {
 
@@ -14,14 +16,25 @@ void check_variables(const TuningProblem& problem, std::vector<Problem>& problem
     problems.push_back({"tune", "no variable is tuned", "add one [[tune]] entry"});
   }
   for (const TunedVariable& variable : problem.variables) {
-    const bool ordered = variable.low > 0.0 && variable.low < variable.high;
-    if (!ordered || !std::isfinite(variable.high)) {
+    const bool is_possible = !variable.is_logarithmic || variable.low > 0.0;
+    const bool is_ordered = variable.low < variable.high;
+    if (!is_possible || !is_ordered || !std::isfinite(variable.high - variable.low)) {
       problems.push_back(
           {"tune.range",
            fmt::format("range of '{}' is [{:g}, {:g}]", variable.path, variable.low, variable.high),
-           "give 0 < low < high, both finite"});
+           variable.is_logarithmic ? "give 0 < low < high, both finite"
+                                   : "give low < high, both finite"});
     }
   }
+}
+
+// A sum of values of several units means nothing.
+void check_sum(const TuningProblem& problem, std::vector<Problem>& problems) {
+  const bool has_linear =
+      std::ranges::count(problem.variables, false, &TunedVariable::is_logarithmic) > 0;
+  if (!has_linear || problem.variables.size() < 2 || !is_lowest_sum(problem)) return;
+  problems.push_back({"objective", "several values, of which some have linear ranges, have no sum",
+                      "say by objective which value or response is best"});
 }
 
 void check_components(const TuningProblem& problem, std::vector<Problem>& problems) {
@@ -55,7 +68,8 @@ void check_counts(const TuningOptions& options, std::vector<Problem>& problems) 
   }
 }
 
-void check_decades(const TuningOptions& options, std::vector<Problem>& problems) {
+void check_decades(const TuningProblem& problem, const TuningOptions& options,
+                   std::vector<Problem>& problems) {
   const auto within = [&](const char* path, double value, double low, double high) {
     if (!(value >= low && value <= high)) {
       problems.push_back({path, fmt::format("{} is {:g}", path, value),
@@ -67,12 +81,17 @@ void check_decades(const TuningOptions& options, std::vector<Problem>& problems)
   within("delta", options.delta, 1e-8, 0.9);
   within("gap", options.gap, 1e-3, 10.0);
   within("mu", options.mu, 0.0, 1.0);
-  if (-std::log10(1.0 - options.delta) < options.resolution) {
+  for (const TunedVariable& variable : problem.variables) {
+    const bool is_log = variable.is_logarithmic;
+    const double step = is_log ? -std::log10(1.0 - options.delta) : options.delta;
+    if (step >= options.resolution) continue;
+    const double least = is_log ? 1.0 - std::pow(10.0, -options.resolution) : options.resolution;
     problems.push_back(
         {"delta",
-         fmt::format("delta {:g} is finer than the resolution of {:g} decades", options.delta,
-                     options.resolution),
-         fmt::format("use a delta of at least {:.3g}", 1.0 - std::pow(10.0, -options.resolution))});
+         fmt::format("delta {:g} is finer than the resolution of {:g} {}", options.delta,
+                     options.resolution, is_log ? "decades" : "of the range"),
+         fmt::format("use a delta of at least {:.3g}", least)});
+    return;
   }
 }
 
@@ -81,9 +100,10 @@ void check_decades(const TuningOptions& options, std::vector<Problem>& problems)
 std::vector<Problem> check(const TuningProblem& problem, const TuningOptions& options) {
   std::vector<Problem> problems;
   check_variables(problem, problems);
+  check_sum(problem, problems);
   check_components(problem, problems);
   check_counts(options, problems);
-  check_decades(options, problems);
+  check_decades(problem, options, problems);
   return problems;
 }
 
@@ -104,7 +124,10 @@ double compute_objective(const TuningProblem& problem, const std::vector<double>
     return is_known ? answer.objective : std::numeric_limits<double>::infinity();
   }
   double sum = 0.0;
-  for (std::size_t j = 0; j < x.size(); ++j) sum += problem.variables[j].weight * std::log10(x[j]);
+  for (std::size_t j = 0; j < x.size(); ++j) {
+    const TunedVariable& variable = problem.variables[j];
+    sum += variable.weight * position_of(variable, x[j]);
+  }
   return sum;
 }
 

@@ -1,10 +1,11 @@
 // What a tuner is asked and what it may ask back. It knows numbers only: the caller turns a
 // request into simulations (all load cases) and reduces them to one error per match component.
 //
-// Tuned variables are positive and searched in log10. The objective, which is minimised, is
+// Tuned variables are positive and searched in log10, or of a linear range (variable_axis.h). The
+// objective, which is minimised, is
 //   sum_j weight_j log10 x_j     (all weights 1; or 1 or -1 of one value and 0 of the others)
-// or a number that evaluations answer. A component matches when error <= tolerance, both relative
-// to the reference; that of a limit has tolerance 1.
+// with the value itself of a linear range, or a number that evaluations answer. A component matches
+// when error <= tolerance, both relative to the reference; that of a limit has tolerance 1.
 #pragma once
 
 #include <cstdint>
@@ -27,6 +28,7 @@ struct TunedVariable {
   double low = 0.0;  // the declared range, in user units
   double high = 0.0;
   double weight = 1.0;  // of log10 of the value in the objective
+  bool is_logarithmic = true;
 };
 
 struct MatchComponent {
@@ -99,7 +101,8 @@ double compute_objective(const std::vector<double>& x);
 // What is minimised at x: infinite where that is a response and there is none.
 double compute_objective(const TuningProblem& problem, const std::vector<double>& x,
                          const Answer& answer);
-// The least sum of log10, the objective unless another one is asked for.
+// The least sum of log10 (of one linear range the least value), the objective unless another one is
+// asked for.
 bool is_lowest_sum(const TuningProblem& problem);
 
 }  // namespace linkstudy::tuning

@@ -47,11 +47,16 @@ const std::string& binding_name(const TuningResult& result) {
   return result.problem.components[result.binding].name;
 }
 
+double decades_of(const TunedVariable& variable, const Window& window) {
+  return variable.is_logarithmic ? window.margin : std::numeric_limits<double>::quiet_NaN();
+}
+
 double shown_objective(const TuningResult& result) {
   if (result.problem.response) {
     return result.problem.response->maximizes ? -result.objective : result.objective;
   }
-  if (is_lowest_sum(result.problem)) return result.objective;
+  const bool is_sum = is_lowest_sum(result.problem) && variable_of(result).is_logarithmic;
+  if (is_sum) return result.objective;
   const auto own =
       std::ranges::find_if(result.problem.variables,
                            [](const TunedVariable& variable) { return variable.weight != 0.0; });

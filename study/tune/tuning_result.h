@@ -40,7 +40,7 @@ namespace linkstudy::tuning {
 struct Window {
   double low = 0.0;
   double high = 0.0;
-  double margin_decades = 0.0;  // log10(high / low)
+  double margin = 0.0;  // log10(high / low), or of a linear range the part of it
   HighLimit high_limited_by = HighLimit::range;
   bool low_open = false;
 };
@@ -81,6 +81,8 @@ TuningStatus worst_of(const std::vector<TuningResult>& results);
 double tolerance_of(const TuningResult& result);
 double step_of(const TuningResult& result);
 const std::string& binding_name(const TuningResult& result);
+// log10(high / low); NaN of a linear range.
+double decades_of(const TunedVariable& variable, const Window& window);
 // What was minimised as it is written in the file: the largest value of a response, a tuned value,
 // or the sum of log10.
 double shown_objective(const TuningResult& result);

@@ -53,8 +53,8 @@ tuning::TuningProblem make_problem(const Evaluator& evaluator, std::size_t level
   for (const TuneInput& tune : input.tune) {
     const double sign = objective && objective->maximizes ? -1.0 : 1.0;
     const bool counts = !objective || is_response || objective->of == tune.parameter.path;
-    problem.variables.push_back(
-        {tune.parameter.path, tune.parameter.unit, tune.low, tune.high, counts ? sign : 0.0});
+    problem.variables.push_back({tune.parameter.path, tune.parameter.unit, tune.low, tune.high,
+                                 counts ? sign : 0.0, tune.is_logarithmic});
   }
   for (const JudgedError& error : evaluator.judged_errors()) {
     const std::size_t own = std::min(level, error.tolerance.size() - 1);
@@ -161,10 +161,11 @@ tuning::TuningOptions make_tuning_options(const StudyInput& input) {
 void check_tune(const StudyInput& input, Diagnostics& diagnostics) {
   for (std::size_t i = 0; i < input.tune.size(); ++i) {
     const TuneInput& tune = input.tune[i];
-    if (!tune.is_logarithmic) {
+    const bool has_sum = !input.objective || input.tune.size() == 1;
+    if (!tune.is_logarithmic && input.tune.size() > 1 && has_sum) {
       diagnostics.add(locate(input.resolved, fmt::format("tune.{}.range.lin", i)),
-                      "this version searches in decades only",
-                      "write range = { log = [lowest, highest] }");
+                      "values of a linear range have no sum of log10 with others",
+                      "say by objective which value or response is best, or give it a log range");
     }
     if (tune.parameter.path == kStepPath) {
       diagnostics.add(tune.at, "simulation.step cannot be tuned: the certificate halves it",

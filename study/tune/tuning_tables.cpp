@@ -31,8 +31,9 @@ Table make_result_table(const TuningResult& result) {
   }
   table.add("window_low", unit, "where the values that match begin", of_window(&Window::low));
   table.add("window_high", unit, "where they end", of_window(&Window::high));
-  table.add("margin_decades", "", "log10 of window_high / window_low",
-            of_window(&Window::margin_decades));
+  table.add("margin_decades", "", "log10 of window_high / window_low", [](const Result& r) {
+    return r.window ? decades_of(variable_of(r), *r.window) : kNan;
+  });
   table.add("high_limited_by", "", "what ends the window", [](const Result& r) {
     return r.window ? std::string(name_of(r.window->high_limited_by)) : std::string();
   });
@@ -71,7 +72,9 @@ Table make_box_table(const TuningResult& result) {
   add_end("window_low", "where the values that match begin, the others being as here",
           &Window::low);
   add_end("window_high", "where they end", &Window::high);
-  add_end("margin_decades", "log10 of window_high / window_low", &Window::margin_decades);
+  i = 0;
+  table.add("margin_decades", "", "log10 of window_high / window_low",
+            [&](const Row& r) { return matches ? decades_of(r, result.windows[i++]) : kNan; });
   i = 0;
   table.add("high_limited_by", "", "what ends the window", [&](const Row&) {
     return matches ? std::string(name_of(result.windows[i++].high_limited_by)) : std::string();

@@ -22,9 +22,11 @@ void add_line(std::string& text, const std::string& key, const std::string& valu
 void add_point(std::string& text, const TuningResult& result) {
   for (std::size_t i = 0; i < result.point.size(); ++i) {
     const TunedVariable& variable = result.problem.variables[i];
-    add_line(text, i == 0 ? "point" : "",
-             fmt::format("{} = {:.6g} {} (log10 {:.4f})", variable.path, result.point[i],
-                         variable.unit, std::log10(result.point[i])));
+    add_line(
+        text, i == 0 ? "point" : "",
+        fmt::format("{} = {:.6g} {}", variable.path, result.point[i], variable.unit) +
+            (variable.is_logarithmic ? fmt::format(" (log10 {:.4f})", std::log10(result.point[i]))
+                                     : ""));
   }
 }
 
@@ -46,23 +48,29 @@ void add_damping(std::string& text, const TuningResult& result) {
   }
 }
 
-std::string format_window(const Window& window, const std::string& unit) {
-  return fmt::format("{:.6g} .. {:.6g} {}, {:.2f} decades, above limited by {}", window.low,
-                     window.high, unit, window.margin_decades, name_of(window.high_limited_by));
+std::string format_margin(const TunedVariable& variable, const Window& window) {
+  return variable.is_logarithmic ? fmt::format("{:.2f} decades", window.margin)
+                                 : fmt::format("{:.3g} % of the range", 100.0 * window.margin);
+}
+
+std::string format_window(const TunedVariable& variable, const Window& window) {
+  return fmt::format("{:.6g} .. {:.6g} {}, {}, above limited by {}", window.low, window.high,
+                     variable.unit, format_margin(variable, window),
+                     name_of(window.high_limited_by));
 }
 
 void add_window(std::string& text, const TuningResult& result) {
   for (std::size_t i = 0; i < result.windows.size(); ++i) {
     const TunedVariable& variable = result.problem.variables[i];
     add_line(text, i == 0 ? "window" : "",
-             variable.path + ": " + format_window(result.windows[i], variable.unit));
+             variable.path + ": " + format_window(variable, result.windows[i]));
   }
   if (!result.windows.empty()) return;
   if (!result.window) {
     add_line(text, "window", "empty");
     return;
   }
-  add_line(text, "window", format_window(*result.window, variable_of(result).unit));
+  add_line(text, "window", format_window(variable_of(result), *result.window));
 }
 
 std::string describe_binding(const TuningResult& result) {
@@ -195,16 +203,16 @@ void add_points(std::string& text, const TuningResult& result) {
   }
 }
 
-Json describe_window(const Window& window) {
+Json describe_window(const TunedVariable& variable, const Window& window) {
   return {{"low", window.low},
           {"high", window.high},
-          {"margin_decades", window.margin_decades},
+          {"margin_decades", json_number(decades_of(variable, window))},
           {"high_limited_by", name_of(window.high_limited_by)}};
 }
 
 Json make_window(const TuningResult& result) {
   const bool has_one = result.window && result.windows.empty();
-  return has_one ? describe_window(*result.window) : Json(nullptr);
+  return has_one ? describe_window(variable_of(result), *result.window) : Json(nullptr);
 }
 
 Json make_largest_step(const TuningResult& result) {
@@ -230,7 +238,8 @@ void add_box_keys(Json& json, const TuningResult& result) {
   if (result.problem.variables.size() == 1) return;
   Json windows = Json::object();
   for (std::size_t i = 0; i < result.windows.size(); ++i) {
-    windows[result.problem.variables[i].path] = describe_window(result.windows[i]);
+    const TunedVariable& variable = result.problem.variables[i];
+    windows[variable.path] = describe_window(variable, result.windows[i]);
   }
   Json staircase = Json::array();
   for (const Observation& one : result.staircase) {
@@ -325,8 +334,8 @@ std::string describe_best(const TuningResult& result) {
 }
 
 std::string describe_span(const TuningResult& result) {
-  if (!result.window) return "-";
-  return fmt::format("{:.2f}", result.window->margin_decades);
+  if (!result.window || !variable_of(result).is_logarithmic) return "-";
+  return fmt::format("{:.2f}", result.window->margin);
 }
 
 }  // namespace

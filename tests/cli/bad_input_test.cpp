@@ -121,7 +121,10 @@ const BadStudy kBadStudies[] = {
      "tolerance = 0.02\nreference_signal = \"closure.S.force.x\"", "components"},
     {"taken_name", "study.toml", "name = \"crank_speed\"", "name = \"gap_max\"",
      "the name of another"},
-    {"linear_range", "tune.toml", "range = { log", "range = { lin", "decades"},
+    {"linear_range", "tune.toml", "[[match]]",
+     "[[tune]]\nparameter = \"closure.S.sde.damping_ratio\"\nrange = { lin = [0.1, 2.0] "
+     "}\n[[match]]",
+     "no sum of log10"},
     {"step_beside_another", "tune.toml", "[[match]]",
      "[[tune]]\nparameter = \"simulation.step\"\nrange = { log = [1e-4, 1e-3] }\n[[match]]",
      "cannot be tuned"},

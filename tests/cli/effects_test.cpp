@@ -80,8 +80,11 @@ TEST_F(Effects, A_tune_that_cannot_succeed_is_refused_by_check_at_its_keys) {
     }
   }
   write_inputs();
-  replace("tune.toml", "range = { log", "range = { lin");
-  EXPECT_THAT(run("check tune.toml").err, HasSubstr("tune.toml:10:17: error: this version"));
+  replace("tune.toml", "[[match]]",
+          "[[tune]]\nparameter = \"closure.S.sde.damping_ratio\"\nrange = { lin = [0.1, 2.0] "
+          "}\n\n[[match]]");
+  EXPECT_THAT(run("check tune.toml").err,
+              HasSubstr("tune.toml:14:17: error: values of a linear range have no sum"));
   EXPECT_FALSE(std::filesystem::exists(path("out")));
 }
 

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "tests/cli/program.h"
 #include "tests/support/source_file.h"
@@ -81,6 +82,20 @@ TEST_F(Plan, Wall_time_is_shortest_with_the_ranks_that_are_of_use) {
     EXPECT_GE(layout["wall_s"].get<double>() * 1.001, at_useful);
     EXPECT_LE(layout["wall_s"].get<double>(), layout["cpu_s"].get<double>() * (1.0 + 1e-9));
   }
+}
+
+// Processes that share a core, or its clock, slow each other down; none makes another faster.
+TEST_F(Plan, Measures_how_ranks_of_this_machine_slow_each_other_down) {
+  const json one = plan("study.toml --ranks 1 --probe 0.5")["measured"];
+  EXPECT_EQ(one["at_once"], 1);
+  EXPECT_EQ(one["slowdown"], 1.0);
+  const int processors = static_cast<int>(std::thread::hardware_concurrency());
+  const json said = plan("study.toml --ranks 1000 --probe 0.5");
+  EXPECT_EQ(said["measured"]["at_once"], processors);
+  // Of hardware threads up to four share a core; three times that for what else runs here.
+  EXPECT_GE(said["measured"]["slowdown"], 1.0);
+  EXPECT_LT(said["measured"]["slowdown"], 12.0);
+  EXPECT_THAT(left_behind(), IsEmpty());
 }
 
 TEST_F(Plan, Ranks_are_those_of_the_job_unless_they_are_given) {

@@ -4,11 +4,13 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/program.h"
+#include "tests/support/rsrrp_text.h"
 
 namespace linkstudy::testing::tune_test {
 namespace {
 
 using nlohmann::json;
+using test::replaced;
 using ::testing::HasSubstr;
 
 class TuneFile : public Program {
@@ -99,6 +101,40 @@ TEST_F(TuneFile, Finds_the_lowest_stiffness_while_the_damping_ratio_is_free) {
   EXPECT_EQ(run("verify out").code, 0);
 }
 
+// Twice the resolution: 0.001 decades of one, 0.001 of the range of the other.
+TEST_F(TuneFile, Finds_in_a_linear_range_what_it_finds_in_decades) {
+  const std::string path = "closure.S.sde.stiffness";
+  const double by_decades = tuned("tune.toml -o decades", 0)["parameters"][path];
+  const double high = std::round(4.0 * by_decades);
+  write("linear.toml",
+        replaced(tune_text(), "log = [1e3, 1e7]", "lin = [1e3, " + std::to_string(high) + "]"));
+  const json linear = tuned("linear.toml -o out", 0);
+  const double found = linear["parameters"][path];
+  EXPECT_NEAR(found, by_decades, 0.001 * high + 0.0024 * by_decades);
+  EXPECT_EQ(linear["objective"], found);
+  EXPECT_TRUE(linear["window"]["margin_decades"].is_null());
+  EXPECT_EQ(linear["window"]["high"], high);
+  EXPECT_EQ(run("verify out").code, 0);
+}
+
+// What gravity along x does to the force of the cut joint is odd in it: the window is even.
+TEST_F(TuneFile, Tunes_a_value_that_may_be_negative) {
+  write("sideways.toml",
+        replaced(replaced(replaced(tune_text(), "\"closure.S.sde.stiffness\"", "\"gravity.0\""),
+                          "log = [1e3, 1e7]", "lin = [-0.5, 0.3]"),
+                 "\"closure.S.model\" = \"sde\", \"simulation.step\" = 2.0e-4",
+                 "\"closure.S.model\" = \"cut\""));
+  const json found = tuned("sideways.toml -o out -s match.0.tolerance=0.002", 0);
+  const double low = found["parameters"]["gravity.0"];
+  EXPECT_LT(low, 0.0);
+  // The resolution of both ends, of a range of 0.8.
+  EXPECT_NEAR(low, -found["window"]["high"].get<double>(), 2e-3) << found.dump(1);
+  const Ended shown = run("export out --table tuning");
+  EXPECT_EQ(shown.code, 0);
+  EXPECT_EQ(run("report out").code, 0);
+  EXPECT_EQ(run("verify out").code, 0);
+}
+
 TEST_F(TuneFile, Minimises_a_response_among_what_matches) {
   write_tune("objective = { minimize = \"gap_max\" }", "");
   const json stiffest = tuned("wanted.toml -o out", 0);
@@ -123,6 +159,10 @@ TEST_F(TuneFile, Wrong_lists_limits_and_objectives_are_located) {
               HasSubstr("limit of gap_max"));
   EXPECT_THAT(said("", "\n[[limit]]\nresponse = \"gap_max\"\nat_most = 1\nat_least = 0\n"),
               HasSubstr("at_least"));
+  EXPECT_THAT(said("",
+                   "\n[[tune]]\nparameter = \"closure.S.sde.damping_ratio\"\nrange = { lin = "
+                   "[0.2, 2.0] }\n"),
+              HasSubstr("values of a linear range have no sum of log10 with others"));
   EXPECT_THAT(said("objective = { minimize = \"closure.S.sde.stiff\" }", ""),
               HasSubstr("objective names neither a tuned value nor a response"));
   EXPECT_THAT(said("", "\n[search]\ngap = 0.2\n"), HasSubstr("search.gap acts where"));

@@ -199,6 +199,10 @@ TEST(Calibration, recovers_the_parameters_of_data_without_noise_to_the_last_digi
   EXPECT_NEAR(2.0, fit.estimates[0].value, 1e-10);
   EXPECT_NEAR(0.8, fit.estimates[1].value, 1e-10);
   EXPECT_TRUE(fit.profiles.empty());
+  EXPECT_TRUE(fit.check.confirms) << fit.check.sum;
+  EXPECT_EQ(fit.starts.size(),
+            static_cast<std::size_t>(std::ranges::count(fit.starts, true, &StartReport::is_best)));
+  EXPECT_EQ("the data are met to rounding, so that nothing tells of intervals", fit.reason);
 }
 
 // What a wrong model misses has no 400 independent samples.

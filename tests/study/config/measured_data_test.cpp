@@ -22,8 +22,11 @@ std::vector<WantedColumn> wanted(const std::string& time, const std::string& for
 
 std::shared_ptr<const MeasuredData> read(const std::string& text, Diagnostics& diagnostics,
                                          const std::string& force = "Fx [kN]") {
-  return read_measured_data(write_file("data.csv", text), make_location("study.toml", 2, 8),
-                            wanted("t [ms]", force), diagnostics);
+  const std::string path = write_file("data.csv", text);
+  const Location at = make_location("study.toml", 2, 8);
+  const std::optional<std::string> read = read_data_text(path, at, diagnostics);
+  return read ? parse_measured_data(*read, path, at, wanted("t [ms]", force), diagnostics)
+              : nullptr;
 }
 
 std::vector<std::string> errors_of(const std::string& text) {
@@ -83,8 +86,7 @@ TEST(MeasuredData, names_the_nearest_heads_and_what_is_no_unit) {
 
 TEST(MeasuredData, that_is_not_there_is_an_error_of_the_line_that_names_it) {
   Diagnostics diagnostics;
-  EXPECT_EQ(nullptr, read_measured_data("nowhere.csv", make_location("study.toml", 2, 8),
-                                        wanted("t", "F"), diagnostics));
+  EXPECT_FALSE(read_data_text("nowhere.csv", make_location("study.toml", 2, 8), diagnostics));
   EXPECT_THAT(to_string(diagnostics), HasSubstr("study.toml:2:8: error: data 'nowhere.csv'"));
   EXPECT_THAT(errors_of("t [ms],Fx [kN]\n"), ElementsAre(HasSubstr("no lines of numbers")));
 }

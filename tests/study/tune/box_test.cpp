@@ -127,6 +127,30 @@ TEST(Box, A_part_that_fails_by_a_cause_does_not_end_the_search) {
   EXPECT_EQ(result.windows[0].high_limited_by, HighLimit::stability);
 }
 
+// Runs are stable up to 1e7 in each value; the optimum is at 1e6, 1e6. What has one value at 1e3
+// and another above 1e7 is lower than that, and no run tells of it: with a range that ends at 1e7
+// there is no such point.
+TEST(Box, A_range_past_the_stability_limit_leaves_a_gap_that_is_laid_to_the_step_and_not_to_mu) {
+  PlantedBox box;
+  box.weights = {{1.0, 0.0}, {0.0, 1.0}};
+  box.corners = {{6.0, 0.0}, {0.0, 6.0}};
+  box.coarse = 0.0;
+  box.cause = [](const std::vector<double>& x) {
+    return std::max(x[0], x[1]) > 1e7 ? Cause::diverged : Cause::ok;
+  };
+  const TuningResult open = tune(box.problem(), box_options(), box.evaluator());
+  EXPECT_EQ(open.status, TuningStatus::inconclusive);
+  for (const char* part : {"C4: proven gap", "cannot be excluded at this step, whatever mu",
+                           "ends as diverged", "end the ranges where runs are stable"}) {
+    EXPECT_NE(open.reason.find(part), std::string::npos) << open.reason;
+  }
+  EXPECT_EQ(open.reason.find("with this mu"), std::string::npos) << open.reason;
+  TuningProblem within = box.problem();
+  for (TunedVariable& variable : within.variables) variable.high = 1e7;
+  const TuningResult closed = tune(within, box_options(), box.evaluator());
+  EXPECT_EQ(closed.status, TuningStatus::certified) << closed.reason;
+}
+
 TEST(Box, Nothing_that_matches_is_said_with_the_nearest_point) {
   std::mt19937_64 generator(5);
   PlantedBox box = separable(2, generator);

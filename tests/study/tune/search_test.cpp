@@ -57,7 +57,7 @@ TEST(SectionSearch, Closes_on_a_boundary_without_slope) {
     log.evaluate({{{1e4}, 1.0, "scan"}, {{5e4}, 1.0, "scan"}});
     const Bracket end =
         search_section(log, {1e4, 5e4}, {WindowEnd::lower, Steps::base, 1e-3, "lower_end"});
-    EXPECT_LE(width_in_decades(end), 1e-3);
+    EXPECT_LE(width_of({}, end), 1e-3);
     EXPECT_LT(end.failing, 33333.0);
     EXPECT_GE(end.feasible, 33333.0);
     // 0.7 decades / 1e-3 = 2^9.5: ten bisections at most when asked one by one.
@@ -84,7 +84,7 @@ TEST(SectionSearch, Is_not_slowed_by_a_secant_that_misleads) {
   const Bracket end =
       search_section(log, {1e4, 5e4}, {WindowEnd::lower, Steps::base, 1e-3, "lower_end"});
   EXPECT_GE(end.feasible, 33333.0);
-  EXPECT_LE(width_in_decades(end), 1e-3);
+  EXPECT_LE(width_of({}, end), 1e-3);
   EXPECT_LE(model.asked.size(), 2U + 20U);  // twice the ten bisections of 0.7 / 1e-3 = 2^9.5
 }
 
@@ -119,7 +119,7 @@ TEST(WindowScan, Bounds_every_function_within_the_slopes_from_below) {
   for (int i = 0; i < 500; ++i) {
     std::vector<double> f = {1.0};
     for (int j = 0; j < 10; ++j) f.push_back(f.back() + 0.1 * slope(generator));
-    const IntervalBound bound = bound_between(1.0, f.front(), 10.0, f.back());
+    const IntervalBound bound = bound_between({}, 1.0, f.front(), 10.0, f.back());
     EXPECT_LE(bound.log_ratio, *std::min_element(f.begin(), f.end()) + 1e-12);
     EXPECT_GT(bound.value, 1.0);
     EXPECT_LT(bound.value, 10.0);

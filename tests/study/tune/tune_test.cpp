@@ -218,7 +218,7 @@ TEST(Tune, Does_not_take_a_noisy_boundary_for_the_end_of_the_window) {
       TuningOptions options;
       options.batch = batch;
       const TuningResult result = run(model, options);
-      ASSERT_GT(result.window->margin_decades, 1.0) << batch << ' ' << i;
+      ASSERT_GT(result.window->margin, 1.0) << batch << ' ' << i;
       ASSERT_NE(result.status, TuningStatus::refuted) << batch << ' ' << i << result.reason;
     }
   }
