@@ -127,8 +127,9 @@ class Radau final : public AdaptiveIntegrator {
 
   void forget_slopes() override { known_ = false; }
   void forget_steps() override {
-    linearized_ = has_polynomial_ = has_history_ = false;
+    linearized_ = has_polynomial_ = has_history_ = rejected_last_ = false;
     factored_ = 0.0;
+    left_ = 1.0;
   }
 
   const double* slopes() override {
@@ -203,8 +204,9 @@ class Radau final : public AdaptiveIntegrator {
   Newton iterate(double h) {
     double before = 0.0;
     rate_ = kFastNewton;
-    // What an iteration leaves, by how the last step went.
-    double left = std::pow(std::max(left_, std::numeric_limits<double>::epsilon()), 0.8);
+    // What the first iteration leaves, by how the last step went; never taken for less than that
+    // of a fast one, since f may have changed.
+    double left = std::pow(std::max(left_, kFastNewton), 0.8);
     for (iterations_ = 1; iterations_ <= kMostIterations; ++iterations_) {
       evaluate_stages(h);
       if (!f_.allFinite()) return Newton::not_finite;

@@ -80,7 +80,7 @@ std::vector<EngineRow> engine_rows(const Model& model, InstructionSet isa, doubl
   std::vector<EngineRow> rows;
   for (const int lanes : {1, level.lanes}) {
     for (const bool written : {false, true}) {
-      EngineRun run(model, {isa, lanes}, step, steps, written);
+      EngineRun run(model, {isa, lanes, Kernels::written}, step, steps, written);
       if (run.is_written() != written) continue;
       rows.push_back({std::move(run), std::numeric_limits<double>::infinity(), {}});
     }
