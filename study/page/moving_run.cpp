@@ -8,6 +8,7 @@
 #include "core/kinematics/link_poses.h"
 #include "study/config/input_error.h"
 #include "study/record/digest.h"
+#include "study/session/model_results.h"
 #include "study/session/stored_answer.h"
 #include "study/session/stored_evaluator.h"
 
@@ -119,6 +120,8 @@ class Again {
 MovingRuns run_again(const StudyResults& results, std::optional<std::uint64_t> evaluation,
                      double timeout_s) {
   const std::optional<std::uint64_t> id = evaluation ? evaluation : choose_shown(results);
+  const std::optional<AnswerKind> analysis = analysed_kind(results);
+  if (analysis && evaluation.value_or(0) == 0) return show_analysis(results, *analysis);
   if (!id) return {{}, {"no evaluation ended well: there is no motion to show"}};
   try {
     return Again(results, timeout_s).run(*id);

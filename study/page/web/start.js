@@ -8,6 +8,7 @@ function startReport() {
   main.append(contents);
   addMechanism(main);
   addHistories(main);
+  addFound(main);
   addJournals(main);
   addErrors(main);
   addTuning(main);
