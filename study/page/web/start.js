@@ -25,3 +25,4 @@ function startReport() {
 }
 
 startReport();
+requestAnimationFrame(() => setTimeout(drawWaiting));
