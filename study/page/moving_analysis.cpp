@@ -3,12 +3,11 @@
 #include "core/kinematics/link_poses.h"
 #include "study/kinematics/table.h"
 #include "study/page/moving_run.h"
+#include "study/page/thin.h"
 #include "study/session/model_results.h"
 
 namespace linkstudy {
 namespace {
-
-constexpr std::size_t kMostPositions = 1200;  // that are drawn
 
 void add_pose(MovingRun& run, const Model& model, const State<double>& state, double time) {
   run.times.push_back(time);
@@ -56,8 +55,7 @@ MovingRun along_course(const KinematicsAnalysis& found) {
     run.histories.traces.push_back(
         {column.name, column.unit, std::get<std::vector<double>>(column.values)});
   }
-  const std::size_t stride = (poses.size() + kMostPositions - 1) / kMostPositions;
-  for (std::size_t i = 0; i < poses.size(); i += stride) {
+  for (const std::size_t i : even_rows(poses.size(), kMostPoses)) {
     add_pose(run, closed, poses[i].s, poses[i].time);
   }
   return run;

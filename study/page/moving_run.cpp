@@ -7,6 +7,7 @@
 
 #include "core/kinematics/link_poses.h"
 #include "study/config/input_error.h"
+#include "study/page/thin.h"
 #include "study/record/digest.h"
 #include "study/session/model_results.h"
 #include "study/session/stored_answer.h"
@@ -16,7 +17,6 @@ namespace linkstudy {
 namespace {
 
 constexpr long kMostRows = 20000;  // of histories
-constexpr std::size_t kMostPoses = 1200;
 
 Series all_channels(const Mechanism& mechanism, const SimulationOptions& options) {
   Sampling sampling = sample_output(make_step_grid(options), options.output_interval);
@@ -25,9 +25,7 @@ Series all_channels(const Mechanism& mechanism, const SimulationOptions& options
 }
 
 void add_poses(MovingRun& run, const Model& model, const Series& series) {
-  const std::size_t stride =
-      std::max<std::size_t>(1, (series.rows() + kMostPoses - 1) / kMostPoses);
-  for (std::size_t row = 0; row < series.rows(); row += stride) {
+  for (const std::size_t row : even_rows(series.rows(), kMostPoses)) {
     const State<double> state = state_at(series, model.mechanism, row);
     run.times.push_back(state.t);
     const auto poses = link_poses(run.linkage, model, state);

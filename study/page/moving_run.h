@@ -13,7 +13,8 @@
 
 namespace linkstudy {
 
-inline constexpr double kLongestAgain = 120.0;  // s, of a run, unless told otherwise
+inline constexpr std::size_t kMostPoses = 1200;  // of a mechanism in motion
+inline constexpr double kLongestAgain = 120.0;   // s, of a run, unless told otherwise
 
 struct MovingRun {
   std::string title;                           // "evaluation 50", "reference"

@@ -25,4 +25,4 @@ function startReport() {
 }
 
 startReport();
-requestAnimationFrame(() => setTimeout(drawWaiting));
+requestAnimationFrame(() => requestAnimationFrame(drawWaiting));  // the second follows a frame
