@@ -6,9 +6,9 @@
 
 namespace linkstudy {
 
-// Numbers, coordinates and tables agree to the last bit. Where the instruction set of the results
-// rounds otherwise, numbers agree to 1e-6 of the greatest of their unit, and tables are not
-// compared. Throws StoreError and InputError.
+// Numbers, coordinates and tables agree to the last bit. Of statics, where the instruction set of
+// the results rounds otherwise, numbers with a unit agree to 1e-6 of the greatest of it, and tables
+// are not compared. Throws StoreError and InputError.
 Verification verify_analysis(const StudyResults& results, AnswerKind kind);
 
 }  // namespace linkstudy
