@@ -106,7 +106,8 @@ Rows file_options() {
       {"h5", "FILE", "write everything as HDF5: positions, poses, singular positions, loops",
        fill(&Line::h5)},
       {"signals", "A,B",
-       "channels of --csv, or groups: closure.S.force, joint.A, energy; default: all; linkstudy "
+       "channels of --csv or -o, or groups: closure.S.force, joint.A, energy; default: all; "
+       "linkstudy "
        "describe channels MODEL",
        fill(&Line::signals)},
       {"all", "", "every evaluation", fill_switch(&Line::all)},
@@ -277,7 +278,8 @@ void check_values(const CommandLine& line) {
   const bool chooses = line.traces || line.table || line.columns || line.rows;
   require(!(line.list && chooses), "--list lists all tables; leave out what chooses one");
   require(!(line.traces && line.table), "--traces is --table traces; leave out one of them");
-  require(!line.signals || line.csv, "--signals chooses what --csv writes; add --csv FILE");
+  require(!line.signals || line.csv || line.output,
+          "--signals chooses what --csv or -o keeps; add --csv FILE or -o DIR");
 }
 
 }  // namespace linkstudy

@@ -51,7 +51,8 @@ MovingRun along_course(const KinematicsAnalysis& found) {
     return run;
   }
   run.driven = driven_channels(*found.result.driven);
-  for (const Column& column : kinematics_table(closed, found.result).columns) {
+  const Table table = kinematics_table(closed, found.result);
+  for (const Column& column : pick_rows(table, even_rows(poses.size(), kMostRows)).columns) {
     run.histories.traces.push_back(
         {column.name, column.unit, std::get<std::vector<double>>(column.values)});
   }

@@ -16,11 +16,10 @@
 namespace linkstudy {
 namespace {
 
-constexpr long kMostRows = 20000;  // of histories
-
 Series all_channels(const Mechanism& mechanism, const SimulationOptions& options) {
   Sampling sampling = sample_output(make_step_grid(options), options.output_interval);
-  sampling.stride *= std::max(1L, (sampling.count() + kMostRows - 1) / kMostRows);
+  constexpr long kMost = kMostRows;
+  sampling.stride *= std::max(1L, (sampling.count() + kMost - 1) / kMost);
   return {list_channels(mechanism), sampling, {}};
 }
 

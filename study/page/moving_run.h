@@ -13,6 +13,7 @@
 
 namespace linkstudy {
 
+inline constexpr std::size_t kMostRows = 20000;  // of the histories of a run made again
 inline constexpr std::size_t kMostPoses = 1200;  // of a mechanism in motion
 inline constexpr double kLongestAgain = 120.0;   // s, of a run, unless told otherwise
 

@@ -114,6 +114,32 @@ class Damaged(PageTest):
         shown = self.check_clean((self.results / "report.html").read_text())
         self.assertIn("torn or damaged", shown["text"])
 
+    def test_an_analysis_that_is_cut_off_is_shown_as_far_as_it_is_there(self):
+        self.analyse("kinematics", "four_bar_double_rocker")
+        digest = island_of(self.report())["digest"]
+        whole = (self.results / "journal.bin").read_bytes()
+        told = set()
+        for part in range(1, 12):
+            (self.results / "journal.bin").write_bytes(whole[:len(whole) * part // 12])
+            made = run("report", self.results)
+            if made.returncode == 2:
+                self.assertIn("error:", made.stderr)
+                continue
+            self.assertEqual(made.returncode, 0, made.stderr)
+            data = island_of((self.results / "report.html").read_text())
+            told.add(data["status"])
+            if data["status"] == "done":
+                self.assertEqual(data["digest"], digest)
+            else:
+                self.assertEqual(data["marks"], [])  # what is not there is not made up
+        self.assertIn("no answer yet", told)
+        shown = self.check_clean((self.results / "report.html").read_text())
+        self.assertIn("torn or damaged", shown["text"])
+        # The same command completes it.
+        self.analyse("kinematics", "four_bar_double_rocker")
+        data = island_of(self.report())
+        self.assertEqual((data["status"], data["digest"], data["dropped"]), ("done", digest, ""))
+
     def test_a_journal_without_any_record_holds_nothing_to_show(self):
         self.study()
         journal = self.results / "journal.bin"

@@ -111,6 +111,13 @@ class Report(PageTest):
             self.assertIn((group, "time"), opened)
         seen = self.check_shown(page, charts=7)
         self.assertIn("Journal of R, evaluation 0", seen["text"])
+        few = run("simulate", model, "-o", self.results, "--fresh", "--signals", "joint.P,energy",
+                  *options)
+        self.assertEqual(few.returncode, 0, few.stderr)
+        kept = json.loads(run("export", self.results, "--traces", "--format", "json").stdout)
+        self.assertEqual({name.rsplit(".", 1)[0] for name in kept["rows"][0]} - {"run", "time"},
+                         {"joint.P", "joint.P.force", "joint.P.torque", "joint.P.force_local",
+                          "joint.P.torque_local", "energy"})
         refused = run("simulate", model, "-o", self.results, "--csv", "x.csv")
         self.assertEqual(refused.returncode, 2)
         self.assertIn("--csv with -o", refused.stderr)
