@@ -21,7 +21,8 @@ enum class Cause : std::uint8_t {
   exception,
   rank_lost,
   invalid_point,
-  step_too_coarse
+  step_too_coarse,
+  course_blocked  // of kinematics: the drives cannot go as asked
 };
 
 template <>
@@ -39,6 +40,7 @@ inline constexpr auto kWords<Cause> =
                        {Cause::exception, "exception"},
                        {Cause::rank_lost, "rank_lost"},
                        {Cause::invalid_point, "invalid_point"},
-                       {Cause::step_too_coarse, "step_too_coarse"}});
+                       {Cause::step_too_coarse, "step_too_coarse"},
+                       {Cause::course_blocked, "course_blocked"}});
 
 }  // namespace linkstudy

@@ -61,10 +61,7 @@ std::vector<std::string> groups_of(const Series& series) {
   return groups;
 }
 
-struct ReadModel {
-  ModelDocument document;  // with --set written into it
-  ModelInput input;
-};
+}  // namespace
 
 ReadModel read_model(const CommandLine& line) {
   Diagnostics diagnostics;
@@ -76,8 +73,6 @@ ReadModel read_model(const CommandLine& line) {
   print_remarks(diagnostics.sorted_remarks());
   return {*document->edited(set, diagnostics), std::move(*model)};
 }
-
-}  // namespace
 
 ModelInput read_model_input(const CommandLine& line) {
   return read_model(line).input;

@@ -8,7 +8,12 @@
 
 namespace linkstudy {
 
+struct ReadModel {
+  ModelDocument document;  // with --set written into it
+  ModelInput input;
+};
 // A model with the --set values in it; remarks are printed.
+ReadModel read_model(const CommandLine& line);
 ModelInput read_model_input(const CommandLine& line);
 
 // Stored results, of a directory or a file; what they have lost is said.

@@ -61,14 +61,15 @@ std::vector<VerbRow> model_verbs() {
        1,
        1,
        "finds the static equilibrium and the closure forces there",
-       {"set,s", "json"},
+       {"output,o", "fresh", "set,s", "json"},
        run_statics},
       {"kinematics",
        "MODEL",
        1,
        1,
        "finds mobility, redundant joints, and the motion over a driven cycle",
-       {"set,s", "drive", "from", "to", "positions", "speed", "csv", "h5", "json"},
+       {"output,o", "fresh", "set,s", "drive", "from", "to", "positions", "speed", "csv", "h5",
+        "json"},
        run_kinematics},
   };
 }

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <limits>
+
 #include "study/config/toml_writer.h"
 #include "study/kinematics/report.h"
 #include "study/kinematics/table.h"
@@ -35,6 +38,7 @@ Table singular_group(const KinematicsResult& result) {
   using Row = SingularPosition;
   Table group;
   group.name = "singular";
+  const std::vector<std::string> channels = driven_channels(*result.driven);
   std::vector<std::uint8_t> kinds;
   for (const Row& p : rows) kinds.push_back(static_cast<std::uint8_t>(p.kind));
   group.columns.push_back(
@@ -43,8 +47,7 @@ Table singular_group(const KinematicsResult& result) {
                      [](const Row& p) { return p.time; });
   for (std::size_t i = 0; i < result.course->drives.size(); ++i) {
     const Drive& drive = result.course->drives[i];
-    add_column<double>(group, rows, drive.name + ".q", drive.turns ? "rad" : "m",
-                       "position of the drive",
+    add_column<double>(group, rows, channels[i], drive.turns ? "rad" : "m", "position of the drive",
                        [i](const Row& p) { return p.drive[static_cast<Eigen::Index>(i)]; });
   }
   add_column<double>(group, rows, "quality", "1", "transmission quality",
@@ -83,6 +86,51 @@ Table loop_group(const KinematicsResult& result) {
 
 }  // namespace
 
+std::vector<Table> kinematics_tables(const ModelInput& input, const Model& closed,
+                                     const KinematicsResult& result) {
+  std::vector<Table> tables;
+  if (result.driven) {
+    tables.push_back(group_of("poses", pose_table(input.rigid, closed, result)));
+    tables.push_back(singular_group(result));
+  }
+  if (!result.loops.empty()) tables.push_back(loop_group(result));
+  return tables;
+}
+
+std::vector<FoundNumber> kinematics_numbers(const KinematicsResult& result) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  const MobilityReport& r = result.mobility;
+  const DriveCycle& cycle = result.cycle;
+  const double residual =
+      cycle.poses.empty()
+          ? kNan
+          : std::ranges::max_element(cycle.poses, {}, &DrivenPose::residual)->residual;
+  const auto end = [&](int i) {
+    return cycle.poses.empty() ? kNan : (i == 0 ? cycle.poses.front() : cycle.poses.back()).time;
+  };
+  return {
+      {{"mobility", "", "freedoms that really move"}, 1.0 * r.mobility},
+      {{"instantaneous_mobility", "", "freedoms at the start to first order"},
+       1.0 * r.instantaneous_mobility},
+      {{"kutzbach", "", "freedoms by counting joints"}, 1.0 * r.kutzbach},
+      {{"redundant_constraints", "", "closure equations that say what others say"},
+       1.0 * r.redundant},
+      {{"links", "", "ground included"}, 1.0 * r.links},
+      {{"joints", "", "closures included"}, 1.0 * r.joints},
+      {{"loops", "", "independent ones"}, 1.0 * r.loops},
+      {{"coordinates", "", "freedoms of all joints"}, 1.0 * r.coordinates},
+      {{"closure_rank", "", "of the closure equations at the start"}, 1.0 * r.rank.rank},
+      {{"start_displacement", "", "of joints to close the start, rad or m"},
+       result.assembly.displacement},
+      {{"positions", "", "that the course reaches"}, static_cast<double>(cycle.poses.size())},
+      {{"time_begin", "s", "of the first of them"}, end(0)},
+      {{"time_end", "s", "of the last"}, end(1)},
+      {{"singular_positions", "", "along the course"}, static_cast<double>(cycle.singular.size())},
+      {{"least_quality", "1", "transmission quality, between positions as well"},
+       cycle.poses.empty() ? kNan : cycle.worst.quality},
+      {{"greatest_residual", "1", "of the closure equations"}, residual}};
+}
+
 Table kinematics_group(const ModelInput& input, const Model& closed, const KinematicsResult& result,
                        const std::string& command) {
   const MobilityReport& r = result.mobility;
@@ -98,12 +146,8 @@ Table kinematics_group(const ModelInput& input, const Model& closed, const Kinem
                      {"git_revision", git_revision()},
                      {"command", command},
                      {"input_resolved", write_toml(input.resolved)}};
-  if (result.driven) {
-    root.parts.push_back(group_of("kinematics", kinematics_table(closed, result)));
-    root.parts.push_back(group_of("poses", pose_table(input.rigid, closed, result)));
-    root.parts.push_back(singular_group(result));
-  }
-  if (!result.loops.empty()) root.parts.push_back(loop_group(result));
+  if (result.driven) root.parts.push_back(group_of("kinematics", kinematics_table(closed, result)));
+  for (const Table& table : kinematics_tables(input, closed, result)) root.parts.push_back(table);
   return root;
 }
 

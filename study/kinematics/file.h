@@ -2,15 +2,26 @@
 //   /            what kinematics --json tells, as attributes; program and input
 //   /kinematics  axis time; the columns of kinematics_table, NaN where a rate is missing
 //   /poses       axis time; the columns of pose_table
-//   /singular    a row a singular position: kind, time, drive.NAME, quality, z, h, h_R, joints
+//   /singular    a row a singular position: kind, time, joint.NAME.q of the drives, quality, z, h,
+//   h_R,
+//                joints
 //   /loops       a row a basic loop: closure, joints, elements, rank, conditioning
 #pragma once
 
 #include "study/config/model_reader.h"
 #include "study/kinematics/result.h"
 #include "study/record/table.h"
+#include "study/report/findings.h"
 
 namespace linkstudy {
+
+// The tables that --h5 and results have in common: poses, singular (where something is driven) and
+// loops.
+std::vector<Table> kinematics_tables(const ModelInput& input, const Model& closed,
+                                     const KinematicsResult& result);
+
+// The counts and extremes of it, each with its name, unit and meaning; NaN where there is none.
+std::vector<FoundNumber> kinematics_numbers(const KinematicsResult& result);
 
 Table kinematics_group(const ModelInput& input, const Model& closed, const KinematicsResult& result,
                        const std::string& command);

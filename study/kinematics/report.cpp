@@ -156,48 +156,44 @@ std::string overdriven_text(const DrivenLinkage& driven, bool is_complete) {
          " contradict each other or the closures: together they cannot move; leave one of them out";
 }
 
-std::string notes_text(const DrivenLinkage& driven, bool is_complete) {
-  std::string text;
+void add_notes(const DrivenLinkage& driven, bool is_complete, std::vector<Finding>& findings) {
   if (driven.releases_holds()) {
-    text += summary_line("note", "hold = true is left aside: the drives could not move");
+    findings.push_back({"note", "hold = true is left aside: the drives could not move"});
   }
-  if (driven.is_overdriven()) text += summary_line("note", overdriven_text(driven, is_complete));
+  if (driven.is_overdriven()) findings.push_back({"note", overdriven_text(driven, is_complete)});
   if (driven.undetermined() > 0) {
-    text += summary_line("note",
-                         fmt::format("{} not determined by the drives: least motion taken",
-                                     plural(driven.undetermined(), "freedom is", "freedoms are")));
+    findings.push_back(
+        {"note", fmt::format("{} not determined by the drives: least motion taken",
+                             plural(driven.undetermined(), "freedom is", "freedoms are"))});
   }
-  return text;
 }
 
-std::string course_text(const KinematicsResult& result) {
+void add_course(const KinematicsResult& result, std::vector<Finding>& findings) {
   const std::vector<Drive>& drives = result.course->drives;
   const DrivePath& path = result.course->path;
   const DriveCycle& cycle = result.cycle;
-  std::string text;
   for (std::size_t i = 0; i < drives.size(); ++i) {
-    text += summary_line("drive", drive_text(drives[i], path.courses()[i], path.duration()));
+    findings.push_back({"drive", drive_text(drives[i], path.courses()[i], path.duration())});
   }
-  text += notes_text(*result.driven, cycle.is_complete);
-  if (!cycle.is_reached) text += summary_line("course", "its begin cannot be reached");
+  add_notes(*result.driven, cycle.is_complete, findings);
+  if (!cycle.is_reached) findings.push_back({"course", "its begin cannot be reached"});
   if (cycle.is_reached) {
-    text += summary_line(
-        "course",
-        fmt::format("{} of {} positions{}", cycle.poses.size(), result.course->options.positions,
-                    cycle.is_complete ? "" : ", the rest cannot be reached"));
+    findings.push_back(
+        {"course",
+         fmt::format("{} of {} positions{}", cycle.poses.size(), result.course->options.positions,
+                     cycle.is_complete ? "" : ", the rest cannot be reached")});
   }
   if (!cycle.poses.empty()) {
     const Transmission& worst = cycle.worst;
     const std::string where =
         drives.size() == 1 ? drives_text(drives, worst.drive) : fmt::format("{:.6g} s", worst.time);
-    text += summary_line("transmission",
-                         fmt::format("quality at least {:.4g}, at {}", worst.quality, where));
+    findings.push_back(
+        {"transmission", fmt::format("quality at least {:.4g}, at {}", worst.quality, where)});
   }
-  if (result.driven->is_overdriven()) return text;
+  if (result.driven->is_overdriven()) return;
   for (const SingularPosition& p : cycle.singular) {
-    text += summary_line("singular", singular_text(drives, p));
+    findings.push_back({"singular", singular_text(drives, p)});
   }
-  return text;
 }
 
 std::string loop_text(const LoopResult& r) {
@@ -272,14 +268,14 @@ Json idle_json(const MobilityReport& r) {
 }
 
 // The equations behind it all.
-std::string equations_text(const KinematicsResult& result) {
+void add_equations(const KinematicsResult& result, std::vector<Finding>& findings) {
   const MobilityReport& r = result.mobility;
-  std::string text = summary_line(
-      "parts", fmt::format("{} with ground, {}, {}, {}", plural(r.links, "link", "links"),
-                           plural(r.joints, "joint", "joints"), plural(r.loops, "loop", "loops"),
-                           plural(r.coordinates, "coordinate", "coordinates")));
-  text += summary_line("rank", rank_text(r));
-  if (!result.assembly.closed) return text;
+  findings.push_back(
+      {"parts", fmt::format("{} with ground, {}, {}, {}", plural(r.links, "link", "links"),
+                            plural(r.joints, "joint", "joints"), plural(r.loops, "loop", "loops"),
+                            plural(r.coordinates, "coordinate", "coordinates"))});
+  findings.push_back({"rank", rank_text(r)});
+  if (!result.assembly.closed) return;
   const char* state =
       r.state == SingularState::none ? "regular"
       : r.state == SingularState::permanent
@@ -288,44 +284,50 @@ std::string equations_text(const KinematicsResult& result) {
                                "more of them here"
       : r.rank.rank < r.rows ? "instantaneous singular state: equations are redundant here only"
                              : "instantaneous singular state: joints give way to first order only";
-  text += summary_line("state", state);
-  for (const LoopResult& loop : result.loops) text += summary_line("loop", loop_text(loop));
-  if (!result.driven) return text;
+  findings.push_back({"state", state});
+  for (const LoopResult& loop : result.loops) findings.push_back({"loop", loop_text(loop)});
+  if (!result.driven) return;
   const std::string branch = result.branch == 0 ? "" : fmt::format(", branch {:+d}", result.branch);
-  return text +
-         summary_line("drive rank",
-                      fmt::format("h = {}, h_R = {} of {} dependent coordinates{}", result.ranks.h,
-                                  result.ranks.h_r, result.ranks.dependent, branch));
+  findings.push_back(
+      {"drive rank", fmt::format("h = {}, h_R = {} of {} dependent coordinates{}", result.ranks.h,
+                                 result.ranks.h_r, result.ranks.dependent, branch)});
 }
 
 }  // namespace
 
-std::string kinematics_text(const std::string& file, const std::string& name,
-                            const KinematicsResult& result) {
+std::vector<Finding> kinematics_findings(const KinematicsResult& result) {
   constexpr double kMoved = 1e-6;  // rad or m
   const MobilityReport& r = result.mobility;
-  std::string text = summary_line("model", fmt::format("{} ({})", name, file));
-  text += summary_line("verdict", verdict(result));
-  text += summary_line("mobility", fmt::format("{} (Kutzbach {}, at this position {})", r.mobility,
-                                               r.kutzbach, r.instantaneous_mobility));
+  std::vector<Finding> findings = {
+      {"verdict", verdict(result)},
+      {"mobility", fmt::format("{} (Kutzbach {}, at this position {})", r.mobility, r.kutzbach,
+                               r.instantaneous_mobility)}};
   if (result.assembly.closed && result.assembly.displacement > kMoved) {
-    text += summary_line(
-        "start", fmt::format("moved by {:.3g} (rad, m) to close", result.assembly.displacement));
+    findings.push_back(
+        {"start", fmt::format("moved by {:.3g} (rad, m) to close", result.assembly.displacement)});
   }
   for (const std::string& flipped : flipped_texts(result.assembly)) {
-    text += summary_line("warning", flipped);
+    findings.push_back({"warning", flipped});
   }
   if (result.assembly.closed && r.redundant > 0) {
-    text += summary_line("redundant", redundant_text(r));
+    findings.push_back({"redundant", redundant_text(r)});
   }
-  for (const IdleFreedom& idle : r.idle) text += summary_line("idle", idle_text(idle));
-  if (result.driven) text += course_text(result);
-  return text + equations_text(result);
+  for (const IdleFreedom& idle : r.idle) findings.push_back({"idle", idle_text(idle)});
+  if (result.driven) add_course(result, findings);
+  add_equations(result, findings);
+  return findings;
+}
+
+std::string kinematics_text(const std::string& file, const std::string& name,
+                            const KinematicsResult& result) {
+  return summary_line("model", fmt::format("{} ({})", name, file)) +
+         text_of(kinematics_findings(result));
 }
 
 std::string kinematics_json(const KinematicsResult& result) {
   const MobilityReport& r = result.mobility;
-  Json json = {{"mobility", r.mobility},
+  Json json = {{"status", is_followed(result) ? "done" : "failed"},
+               {"mobility", r.mobility},
                {"instantaneous_mobility", r.instantaneous_mobility},
                {"kutzbach", r.kutzbach},
                {"redundant_constraints", r.redundant},
@@ -346,6 +348,7 @@ std::string kinematics_json(const KinematicsResult& result) {
   if (result.driven) {
     json["drive"] = result.course->drives.front().name;
     json["drives"] = drives_json(result);
+    json["driven_channels"] = driven_channels(*result.driven);
     json["dependent"] = result.ranks.dependent;
     json["h"] = result.ranks.h;
     json["h_R"] = result.ranks.h_r;

@@ -4,11 +4,14 @@
 #include <string>
 
 #include "study/kinematics/result.h"
+#include "study/report/findings.h"
 
 namespace linkstudy {
 
-// Counts, mobility, redundant joints, idle freedoms, loops, course and singular positions, with a
-// verdict.
+// Verdict, mobility, redundant joints, idle freedoms, course and singular positions, counts, loops.
+std::vector<Finding> kinematics_findings(const KinematicsResult& result);
+
+// The same below the model, as aligned lines.
 std::string kinematics_text(const std::string& file, const std::string& name,
                             const KinematicsResult& result);
 

@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <numeric>
 
+#include "core/kinematics/three_turns.h"
+#include "core/numerics/rank.h"
+#include "core/simulation/channels.h"
+
 namespace linkstudy {
 namespace {
 
@@ -27,16 +31,34 @@ LoopResult analyse_loop(const Model& closed, const ClosureScale& scale, const Ba
     return dependent_columns(equations.jacobian(s, equations.cut_position(s)), result,
                              closed.mechanism.nv);
   };
-  LoopResult found{loop, choose_proper_elements(dependent(start))};
+  LoopResult found{loop, choose_proper_elements(dependent(start)), 0.0, {}};
   found.least_conditioning = found.proper.conditioning;
   for (const DrivenPose& pose : result.cycle.poses) {
     const double here = conditioning_of(dependent(pose.s), found.proper.elements);
     found.least_conditioning = std::min(found.least_conditioning, here);
+    found.conditioning.push_back(here);
   }
   return found;
 }
 
+int freedoms_at(const Model& closed, const ClosureScale& scale, const State<double>& s) {
+  const Eigen::MatrixXd jacobian = compute_scaled_closures(closed, scale, s).jacobian;
+  return closed.mechanism.nv - numerical_rank(jacobian, kMobilityTolerance, kLeastRowSize).rank;
+}
+
 }  // namespace
+
+std::vector<std::string> driven_channels(const DrivenLinkage& driven) {
+  std::vector<std::string> names;
+  const std::vector<Channel> all = list_channels(driven.model().mechanism);
+  for (const Drive& drive : driven.drives()) {
+    const auto channel = std::ranges::find_if(all, [&](const Channel& one) {
+      return one.quantity == Quantity::q && one.index == drive.position;
+    });
+    names.push_back(channel->name);
+  }
+  return names;
+}
 
 bool contradicts(const KinematicsResult& result) {
   return result.driven && result.driven->is_overdriven() && !result.cycle.is_complete &&
@@ -54,6 +76,14 @@ bool is_followed(const KinematicsResult& result) {
          !contradicts(result) && !ends_at_singular_angles(result);
 }
 
+std::string blocked_text(const KinematicsResult& result) {
+  if (is_followed(result)) return "";
+  if (!result.assembly.closed) return open_text(result.assembly);
+  if (contradicts(result)) return "the drives contradict each other or the closures";
+  if (!result.cycle.is_reached) return "the begin of the course cannot be reached";
+  return "the course ends where " + singular_angles_text(result.cycle.singular.back().angles);
+}
+
 KinematicsResult analyse_kinematics(const CourseRequest& request, const KinematicsOptions& declared,
                                     const Model& closed) {
   KinematicsResult result;
@@ -69,6 +99,9 @@ KinematicsResult analyse_kinematics(const CourseRequest& request, const Kinemati
     result.branch = result.driven->branch(start);
     result.cycle = follow_drives(*result.driven, start, result.mobility, result.course->path,
                                  result.course->options);
+    for (const DrivenPose& pose : result.cycle.poses) {
+      result.freedoms.push_back(freedoms_at(closed, scale, pose.s));
+    }
   }
   for (const BasicLoop& loop : find_basic_loops(closed.mechanism)) {
     result.loops.push_back(analyse_loop(closed, scale, loop, start, result));

@@ -7,6 +7,7 @@
 #include "core/kinematics/link_poses.h"
 #include "core/kinematics/point_motion.h"
 #include "core/simulation/channels.h"
+#include "study/kinematics/report.h"
 
 namespace linkstudy {
 namespace {
@@ -30,13 +31,16 @@ class TableBuilder {
 
   Table build() {
     add_columns();
-    for (const DrivenPose& pose : result_.cycle.poses) {
+    for (std::size_t row = 0; row < result_.cycle.poses.size(); ++row) {
+      const DrivenPose& pose = result_.cycle.poses[row];
       std::vector<double> cells = {pose.time};
       add_joints(pose, cells);
       add_closures(pose, cells);
       add_points(pose, cells);
       cells.push_back(pose.quality);
       cells.push_back(pose.residual);
+      cells.push_back(result_.freedoms[row]);
+      for (const LoopResult& loop : result_.loops) cells.push_back(loop.conditioning[row]);
       append_row(table_, cells);
     }
     return std::move(table_);
@@ -52,6 +56,10 @@ class TableBuilder {
     for (const std::string& name : mechanism().point_names) add_point_columns(name);
     table_.columns.push_back({"quality", "1"});
     table_.columns.push_back({"residual", "1"});
+    table_.columns.push_back({"mobility", "1"});
+    for (const LoopResult& loop : result_.loops) {
+      table_.columns.push_back({cut_of(loop.loop) + ".conditioning", "1"});
+    }
   }
 
   void add_closure_columns(std::size_t i) {

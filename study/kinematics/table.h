@@ -8,8 +8,9 @@ namespace linkstudy {
 
 // One row a position: time, joint.NAME.q|v|a of all tree joints, closure.NAME.q|v|a of the joints
 // that close loops (core/kinematics/cut_joint.h), point.NAME.position|velocity|acceleration.x|y|z,
-// quality, residual. Velocities and accelerations are missing at singular positions, where the
-// drives do not determine them.
+// quality, residual, mobility (nv - rank J there), closure.NAME.conditioning of the loops cut there
+// (core/kinematics/loop_equations.h). Velocities and accelerations are missing at singular
+// positions, where the drives do not determine them.
 Table kinematics_table(const Model& closed, const KinematicsResult& result);
 
 // One row a position: time, link.NAME.e.w|x|y|z (Euler parameters of the link in ground, of one

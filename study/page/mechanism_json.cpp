@@ -41,6 +41,7 @@ class Scene {
             {"load_case", run_.load_case},
             {"history", run_.histories.name},
             {"ended", run_.ended},
+            {"driven", run_.driven},
             {"links", links()},
             {"joints", joints()},
             {"closures", closures()},

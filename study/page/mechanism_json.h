@@ -9,6 +9,7 @@
 namespace linkstudy {
 
 // {"title", "load_case", "history": name of its histories, "ended",
+//  "driven": channels that a course drives,
 //  "links": [{"name", "mass", "center"}],
 //  "joints": [{"name", "type", "parent", "child", "parent_frame", "child_frame"}],
 //  "closures": [{"name", "type", "model", "radial": clearance in m or null, "first", "second",

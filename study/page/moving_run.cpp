@@ -7,26 +7,24 @@
 
 #include "core/kinematics/link_poses.h"
 #include "study/config/input_error.h"
+#include "study/page/thin.h"
 #include "study/record/digest.h"
+#include "study/session/model_results.h"
 #include "study/session/stored_answer.h"
 #include "study/session/stored_evaluator.h"
 
 namespace linkstudy {
 namespace {
 
-constexpr long kMostRows = 20000;  // of histories
-constexpr std::size_t kMostPoses = 1200;
-
 Series all_channels(const Mechanism& mechanism, const SimulationOptions& options) {
   Sampling sampling = sample_output(make_step_grid(options), options.output_interval);
-  sampling.stride *= std::max(1L, (sampling.count() + kMostRows - 1) / kMostRows);
+  constexpr long kMost = kMostRows;
+  sampling.stride *= std::max(1L, (sampling.count() + kMost - 1) / kMost);
   return {list_channels(mechanism), sampling, {}};
 }
 
 void add_poses(MovingRun& run, const Model& model, const Series& series) {
-  const std::size_t stride =
-      std::max<std::size_t>(1, (series.rows() + kMostPoses - 1) / kMostPoses);
-  for (std::size_t row = 0; row < series.rows(); row += stride) {
+  for (const std::size_t row : even_rows(series.rows(), kMostPoses)) {
     const State<double> state = state_at(series, model.mechanism, row);
     run.times.push_back(state.t);
     const auto poses = link_poses(run.linkage, model, state);
@@ -119,6 +117,8 @@ class Again {
 MovingRuns run_again(const StudyResults& results, std::optional<std::uint64_t> evaluation,
                      double timeout_s) {
   const std::optional<std::uint64_t> id = evaluation ? evaluation : choose_shown(results);
+  const std::optional<AnswerKind> analysis = analysed_kind(results);
+  if (analysis && evaluation.value_or(0) == 0) return show_analysis(results, *analysis);
   if (!id) return {{}, {"no evaluation ended well: there is no motion to show"}};
   try {
     return Again(results, timeout_s).run(*id);

@@ -13,7 +13,9 @@
 
 namespace linkstudy {
 
-inline constexpr double kLongestAgain = 120.0;  // s, of a run, unless told otherwise
+inline constexpr std::size_t kMostRows = 20000;  // of the histories of a run made again
+inline constexpr std::size_t kMostPoses = 1200;  // of a mechanism in motion
+inline constexpr double kLongestAgain = 120.0;   // s, of a run, unless told otherwise
 
 struct MovingRun {
   std::string title;                           // "evaluation 50", "reference"
@@ -24,6 +26,7 @@ struct MovingRun {
   std::vector<std::string> links;              // ground first
   std::vector<double> times;                   // of the poses, s
   std::vector<ShortenedDualQuaternion> poses;  // (times, links) in ground
+  std::vector<std::string> driven;             // channels of the coordinates that a course drives
 };
 
 struct MovingRuns {
@@ -38,6 +41,9 @@ std::optional<std::uint64_t> choose_shown(const StudyResults& results);
 // That one in a line: "evaluation 12, closure.S.sde.stiffness = 812945 N/m, largest error 2 %";
 // empty where there is none.
 std::string best_text(const StudyResults& results);
+
+// The positions of a kinematic analysis, or the equilibrium, found again; what cannot is a note.
+MovingRuns show_analysis(const StudyResults& results, AnswerKind kind);
 
 // Runs one evaluation and its reference, in the load case that binds or the first; each ends after
 // `timeout_s`. What cannot be run is a note. Throws UsageError where there is no such evaluation.

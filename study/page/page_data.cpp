@@ -3,16 +3,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "study/config/file_kind.h"
 #include "study/metrics/response_list.h"
+#include "study/page/history_panels.h"
 #include "study/page/mechanism_json.h"
+#include "study/page/rows_along.h"
 #include "study/page/thin.h"
 #include "study/record/base64.h"
 #include "study/record/digest.h"
 #include "study/report/results_tables.h"
 #include "study/report/table_cells.h"
+#include "study/session/model_results.h"
 #include "study/session/stored_answer.h"
 
 namespace linkstudy {
@@ -33,7 +37,7 @@ Json cells_of(const Column& column) {
 Json tables_of(const StudyResults& results) {
   Json all = Json::array();
   for (const ResultsTable& row : results_tables()) {
-    if (row.name == "traces") continue;
+    if (row.is_history) continue;
     const std::optional<Table> table = row.make(results);
     if (!table) continue;
     Json columns = Json::array();
@@ -87,14 +91,10 @@ std::string status_of(const StudyResults& results, std::size_t evaluations) {
   return fmt::format("{} of {} evaluations", evaluations, total);
 }
 
-bool is_coordinate(const std::string& channel) {
-  return channel.starts_with("joint.") &&
-         (channel.ends_with(".q") || channel.find(".q.") != std::string::npos);
-}
-
 Json channel_of(const Trace& trace, std::size_t count) {
   if (is_coordinate(trace.name) || trace.values.size() <= count) {
     return {{"name", trace.name},
+            {"group", channel_group(trace.name)},
             {"unit", trace.unit},
             {"rows", nullptr},
             {"values", base64_floats(trace.values)}};
@@ -103,6 +103,7 @@ Json channel_of(const Trace& trace, std::size_t count) {
   std::vector<double> values;
   for (const std::uint32_t row : rows) values.push_back(trace.values[row]);
   return {{"name", trace.name},
+          {"group", channel_group(trace.name)},
           {"unit", trace.unit},
           {"rows", base64_indices(rows)},
           {"values", base64_floats(values)}};
@@ -160,6 +161,43 @@ void add_histories(Json& page, const StudyResults& results, const MovingRuns& ag
   const std::size_t count = std::max(kFewestSamples, kSamples / channels);
   page["histories"] = Json::array();
   for (const Shown& one : shown) page["histories"].push_back(history_of(one, count));
+  std::vector<const TraceSet*> sets;
+  for (const Shown& one : shown) sets.push_back(one.set);
+  page.update(history_panels(results, again, sets));
+}
+
+// Evaluations along each parameter of numbers.
+Json along_of(const StudyResults& results, const std::vector<Evaluation>& evaluations) {
+  Json all = Json::object();
+  for (std::size_t i = 0; i < results.description.parameters.size(); ++i) {
+    all[results.description.parameters[i].path] = rows_along(evaluations, i);
+  }
+  return all;
+}
+
+constexpr std::array<std::string_view, 5> kGoodWords = {"certified", "fitted", "converged",
+                                                        "complete", "done"};
+constexpr std::array<std::string_view, 3> kBadWords = {"refuted", "infeasible", "failed"};
+
+std::string_view tone_of(std::string_view status) {
+  if (std::ranges::find(kGoodWords, status) != kGoodWords.end()) return "good";
+  return std::ranges::find(kBadWords, status) != kBadWords.end() ? "bad" : "doubt";
+}
+
+void add_verdict(Json& page, const StudyResults& results, std::size_t evaluations) {
+  const nlohmann::json answer = stored_answer(results);
+  const bool has_answer = answer.is_object() && answer.contains("status");
+  const std::string status =
+      has_answer ? answer["status"].get<std::string>() : status_of(results, evaluations);
+  std::string reason;
+  for (const char* key : {"verdict", "message", "reason"}) {
+    const bool is_text = has_answer && answer.contains(key) && answer[key].is_string();
+    if (is_text && !answer[key].get<std::string>().empty()) reason = answer[key];
+  }
+  page["status"] = status;
+  page["tone"] = tone_of(status);
+  page["reason"] = reason;
+  page["is_in_words"] = analysed_kind(results).has_value();
 }
 
 std::string escaped(std::string_view text) {
@@ -176,7 +214,6 @@ std::string page_json(const StudyResults& results, const MovingRuns& again) {
   Json page = {{"format", 1},
                {"name", results.description.name},
                {"kind", results.description.kind},
-               {"status", status_of(results, evaluations.size())},
                {"digest", results_digest(results.description.parameters,
                                          results.description.responses, evaluations)},
                {"program", results.program_version},
@@ -188,12 +225,14 @@ std::string page_json(const StudyResults& results, const MovingRuns& again) {
                {"answer", stored_answer(results)},
                {"tables", tables_of(results)},
                {"matches", matches_of(results)},
+               {"along", along_of(results, evaluations)},
                {"texts", Json::array()},
                {"notes", again.notes},
                {"mechanisms", Json::array()}};
   for (const NamedText& text : results.texts) {
     page["texts"].push_back({{"name", text.name}, {"text", text.text}});
   }
+  add_verdict(page, results, evaluations.size());
   add_histories(page, results, again);
   for (const MovingRun& run : again.runs) page["mechanisms"].push_back(mechanism_json(run));
   return escaped(page.dump(-1, ' ', false, Json::error_handler_t::replace));

@@ -7,13 +7,15 @@
 
 namespace linkstudy {
 
-// {"format": 1, "name", "kind", "status", "digest", "program", "revision", "input", "seed",
-//  "dropped", "counts": {"evaluations", "ok", "failed": {cause: count}}, "answer": object or null,
+// {"format": 1, "name", "kind", "status", "tone": good, doubt or bad, "reason", "is_in_words": the
+//  table summary tells what was found, "digest", "program", "revision", "input", "seed", "dropped",
+//  "counts": {"evaluations", "ok", "failed": {cause: count}}, "answer": object or null,
 //  "tables": [{"name", "holds", "columns": [{"name", "unit", "meaning", "role", "values"}]}],
 //  "matches": [{"load_case", "channels", "columns": names of their largest errors}],
+//  "along": {parameter: rows of evaluations with all others as usual, ascending (rows_along.h)},
 //  "texts": [{"name", "text"}], "notes": [...],
-//  "histories": [{"name", "evaluation", "is_again", "time", "channels": [{"name", "unit", "rows",
-//                 "values"}]}],
+//  "histories": [{"name", "evaluation", "is_again", "time", "channels": [{"name", "group",
+//                 "unit", "rows", "values"}]}], and what history_panels.h adds,
 //  "mechanisms": [mechanism_json]}
 // Tables are those of `export` but for the traces, numbers with all digits, missing ones null; the
 // histories are the traces, thinned (thin.h) where they are long: "values" belong to "rows" of

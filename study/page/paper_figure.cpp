@@ -6,12 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
-#include <map>
 
 #include "core/topology/nearest_name.h"
 #include "study/config/input_error.h"
 #include "study/metrics/response_list.h"
+#include "study/page/rows_along.h"
 #include "study/record/digest.h"
 #include "study/report/results_tables.h"
 #include "study/session/stored_answer.h"
@@ -41,38 +40,6 @@ bool spreads(const Numbers& values) {
   return least != values.end() && *least > 0.0 && *greatest > 20.0 * *least;
 }
 
-// The number of a parameter in every evaluation; nothing where one has a word.
-std::optional<Numbers> parameter_numbers(const std::vector<Evaluation>& rows, std::size_t column) {
-  Numbers values;
-  for (const Evaluation& row : rows) {
-    const double* number = std::get_if<double>(&row.point.values.at(column));
-    if (number == nullptr) return std::nullopt;
-    values.push_back(*number);
-  }
-  return values;
-}
-
-double most_frequent(const Numbers& values) {
-  std::map<double, int> counts;
-  for (const double value : values) ++counts[value];
-  return std::ranges::max_element(counts, {}, [](const auto& one) { return one.second; })->first;
-}
-
-// Rows that have the usual value of every numeric parameter but one, ascending in that.
-std::vector<std::size_t> rows_along(const std::vector<Evaluation>& rows, std::size_t column,
-                                    const Numbers& own) {
-  std::vector<std::size_t> chosen;
-  for (std::size_t row = 0; row < rows.size(); ++row) chosen.push_back(row);
-  for (std::size_t other = 0; other < rows.front().point.values.size(); ++other) {
-    const auto values = other == column ? std::nullopt : parameter_numbers(rows, other);
-    if (!values) continue;
-    const double usual = most_frequent(*values);
-    std::erase_if(chosen, [&](std::size_t row) { return (*values)[row] != usual; });
-  }
-  std::ranges::sort(chosen, {}, [&](std::size_t row) { return own[row]; });
-  return chosen;
-}
-
 // Of the first parameter with more than two values in a row.
 Figure error_figure(const StudyResults& results) {
   const std::vector<Evaluation> rows = latest_by_id(results.evaluations);
@@ -81,7 +48,7 @@ Figure error_figure(const StudyResults& results) {
     const Parameter& parameter = results.description.parameters[p];
     const std::optional<Numbers> own = parameter_numbers(rows, p);
     if (!own) continue;
-    const std::vector<std::size_t> along = rows_along(rows, p, *own);
+    const std::vector<std::size_t> along = rows_along(rows, p);
     if (along.size() < 3) continue;
     PaperFigure figure;
     Numbers x;

@@ -36,4 +36,13 @@ std::vector<std::uint32_t> thin_rows(std::span<const double> values, std::size_t
   return rows;
 }
 
+std::vector<std::size_t> even_rows(std::size_t rows, std::size_t most) {
+  std::vector<std::size_t> chosen;
+  if (rows == 0) return chosen;
+  const std::size_t stride = std::max<std::size_t>(1, (rows + most - 1) / most);
+  for (std::size_t row = 0; row < rows; row += stride) chosen.push_back(row);
+  if (chosen.back() != rows - 1) chosen.push_back(rows - 1);
+  return chosen;
+}
+
 }  // namespace linkstudy

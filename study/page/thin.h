@@ -12,4 +12,7 @@ namespace linkstudy {
 // Missing values (NaN) are no extremes; a stretch of them alone gives its first row.
 std::vector<std::uint32_t> thin_rows(std::span<const double> values, std::size_t count);
 
+// Every n-th of so many rows, n as small as leaves no more than `most`, and the last.
+std::vector<std::size_t> even_rows(std::size_t rows, std::size_t most);
+
 }  // namespace linkstudy

@@ -38,7 +38,7 @@ void visit_members(auto& archive, Like<Parameter> auto& parameter) {
 }
 
 struct Response {
-  std::string name;  // "error_max_closure_S_force_x", [A-Za-z][A-Za-z0-9_]*
+  std::string name;  // "error_max_closure_S_force_x"; of statics a channel, "closure.S.force.x"
   std::string unit;
   std::string long_name;
 };

@@ -74,12 +74,12 @@ std::vector<std::string> joints_with_friction(const Mechanism& m) {
   return names;
 }
 
-std::string equilibrium_lines(const Preparation& preparation) {
-  std::string text = summary_line("equilibrium", statics_text(*preparation.statics));
+void add_equilibrium(const Preparation& preparation, std::vector<Finding>& findings) {
+  findings.push_back({"equilibrium", statics_text(*preparation.statics)});
   const std::vector<std::string> joints = joints_with_friction(preparation.model.mechanism);
-  if (joints.empty()) return text;
-  return text + summary_line("left out", fmt::format("friction of joint {} (statics has none)",
-                                                     fmt::join(joints, ", ")));
+  if (joints.empty()) return;
+  findings.push_back({"left out", fmt::format("friction of joint {} (statics has none)",
+                                              fmt::join(joints, ", "))});
 }
 
 Json equilibrium_json(const Preparation& preparation) {
@@ -125,27 +125,67 @@ Json outcome_object(const Preparation& preparation, const SimulationOutcome* out
           {"wall_s", wall_s}};
 }
 
-std::string text_of(const Json& json) {
+std::string json_text(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace
 
-std::string preparation_text(const std::string& file, const std::string& name,
-                             const Preparation& preparation, const SimulationOptions& options) {
+std::vector<Finding> preparation_findings(const Preparation& preparation,
+                                          const SimulationOptions& options) {
   const Spectrum& spectrum = preparation.spectrum;
   const double h = make_step_grid(options).h;
-  std::string text = summary_line("model", fmt::format("{} ({})", name, file));
-  text += summary_line("assembly", assembly_text(preparation.assembly));
-  if (!preparation.assembly.closed) return text;
-  text +=
-      summary_line("mobility", mobility_text(preparation.assembly, preparation.model.mechanism.nv));
-  if (preparation.statics) text += equilibrium_lines(preparation);
-  if (preparation.cause != Cause::ok) return text;
-  text += summary_line("omega_max", fmt::format("{:.6g} rad/s at the start", spectrum.omega_max));
-  text += summary_line("step", fmt::format("{:.6g} s, RK4 limit {:.4g} s, h omega_max {:.3g}", h,
-                                           spectrum.step_limit, h * spectrum.omega_max));
-  return text;
+  std::vector<Finding> findings = {{"assembly", assembly_text(preparation.assembly)}};
+  if (!preparation.assembly.closed) return findings;
+  findings.push_back(
+      {"mobility", mobility_text(preparation.assembly, preparation.model.mechanism.nv)});
+  if (preparation.statics) add_equilibrium(preparation, findings);
+  if (preparation.cause != Cause::ok) return findings;
+  findings.push_back({"omega_max", fmt::format("{:.6g} rad/s at the start", spectrum.omega_max)});
+  findings.push_back({"step", fmt::format("{:.6g} s, RK4 limit {:.4g} s, h omega_max {:.3g}", h,
+                                          spectrum.step_limit, h * spectrum.omega_max)});
+  return findings;
+}
+
+std::vector<FoundNumber> statics_numbers(const Preparation& preparation,
+                                         const std::vector<StaticValue>& values) {
+  const bool is_found = preparation.cause == Cause::ok && preparation.statics;
+  const StaticsReport s = is_found ? *preparation.statics : StaticsReport{};
+  const auto found = [&](double value) { return is_found ? value : std::nan(""); };
+  const bool has_stiffness = s.directions > s.neutral;
+  std::vector<FoundNumber> numbers = {
+      {{"smallest_stiffness", is_found ? stiffness_unit(s) : "",
+        "least eigenvalue that is not zero"},
+       has_stiffness ? found(s.smallest_beyond) : std::nan("")},
+      {{"free_directions", "", "in which the mechanism can move"}, found(s.directions)},
+      {{"without_stiffness", "", "of them"}, found(s.neutral)},
+      {{"redundant_equations", "", "closure equations less their rank"},
+       found(preparation.assembly.rows - preparation.assembly.rank)},
+      {{"force_residual", "", "largest force left, N or N m"}, found(s.force_residual)},
+      {{"closure_residual", "", "largest opening left, m or 1"}, found(s.closure_residual)},
+      {{"displacement", "", "largest change of a coordinate from the start, m or rad"},
+       found(s.displacement)},
+      {{"iterations", "", "of Newton's method"}, found(s.iterations)}};
+  for (const StaticValue& value : values) {
+    numbers.push_back({{value.name, value.unit, "at the equilibrium"}, value.value});
+  }
+  return numbers;
+}
+
+Table equilibrium_table(const std::vector<StaticValue>& values) {
+  TableOf<StaticValue> table("equilibrium", "response", values);
+  table.add("quantity", "", "channel", [](const StaticValue& v) { return v.name; });
+  table.add(
+      "value", "", "at the equilibrium, in its unit", [](const StaticValue& v) { return v.value; },
+      "{:.9g}");
+  table.add("unit", "", "of the value", [](const StaticValue& v) { return v.unit; });
+  return table.take();
+}
+
+std::string preparation_text(const std::string& file, const std::string& name,
+                             const Preparation& preparation, const SimulationOptions& options) {
+  return summary_line("model", fmt::format("{} ({})", name, file)) +
+         text_of(preparation_findings(preparation, options));
 }
 
 std::string failure_text(const Preparation& preparation) {
@@ -250,20 +290,21 @@ std::string outcome_text(const SimulationOutcome& outcome, const SimulationOptio
 
 std::string outcome_json(const Preparation& preparation, const SimulationOutcome* outcome,
                          double wall_s) {
-  return text_of(outcome_object(preparation, outcome, wall_s));
+  return json_text(outcome_object(preparation, outcome, wall_s));
 }
 
 std::string statics_json(const Preparation& preparation, const std::vector<StaticValue>& values,
                          double wall_s) {
   Json json = outcome_object(preparation, nullptr, wall_s);
-  if (preparation.cause != Cause::ok) return text_of(json);
+  if (preparation.cause != Cause::ok) return json_text(json);
+  json["verdict"] = statics_text(*preparation.statics);
   json["equilibrium"] = equilibrium_json(preparation);
   json["values"] = json["units"] = Json::object();
   for (const StaticValue& value : values) {
     json["values"][value.name] = json_number(value.value);
     json["units"][value.name] = value.unit;
   }
-  return text_of(json);
+  return json_text(json);
 }
 
 }  // namespace linkstudy

@@ -8,10 +8,21 @@
 #include "core/simulation/prepare.h"
 #include "core/simulation/simulate.h"
 #include "study/evaluate/equilibrium.h"
+#include "study/report/findings.h"
 
 namespace linkstudy {
 
-// Assembly, mobility, redundancy, equilibrium, eigenfrequency and step limit as aligned lines.
+// Assembly, mobility, redundancy, equilibrium, eigenfrequency and step limit.
+std::vector<Finding> preparation_findings(const Preparation& preparation,
+                                          const SimulationOptions& options);
+
+// The numbers of an equilibrium and of its search; NaN where there is none.
+std::vector<FoundNumber> statics_numbers(const Preparation& preparation,
+                                         const std::vector<StaticValue>& values);
+// Columns quantity, value and unit.
+Table equilibrium_table(const std::vector<StaticValue>& values);
+
+// The findings below the model, as aligned lines.
 std::string preparation_text(const std::string& file, const std::string& name,
                              const Preparation& preparation, const SimulationOptions& options);
 

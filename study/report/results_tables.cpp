@@ -33,13 +33,27 @@ constexpr const char* kNotFitted = "only a calibration that has its answer holds
 constexpr const char* kNotTuned = "only a tune that has its answer holds it";
 constexpr const char* kNotConverged = "only a converge that has all its levels holds it";
 
-constexpr std::array<ResultsTable, 18> kTables = {{
-    {"summary", "what varies, the worst errors in percent, responses, status; by load case",
-     [](const StudyResults& r) { return Made(summary_table(r)); }},
+constexpr const char* kNoStatics = "only results of statics hold it";
+constexpr const char* kNoKinematics =
+    "only results of kinematics hold it, of a course along which something is driven";
+
+// Of an analysis of one model the findings are all there is to sum up.
+Made summary_of(const StudyResults& results) {
+  for (const AnswerKind kind : {AnswerKind::statics, AnswerKind::kinematics}) {
+    if (Made findings = part_of(kind, results, "findings")) return findings;
+  }
+  return summary_table(results);
+}
+
+constexpr std::array<ResultsTable, 22> kTables = {{
+    {"summary",
+     "what varies, the worst errors in percent, responses, status; by load case. Of statics and "
+     "kinematics what was found, in words",
+     summary_of},
     {"evaluations", "every parameter and response of every evaluation, and why it ended",
      [](const StudyResults& r) { return Made(evaluations_table(r)); }},
     {"traces", "time histories, and their differences from the reference", traces_table,
-     "these results hold no time histories; ask for them with [[trace]]"},
+     "these results hold no time histories; studies keep those of [[trace]]", true},
     {"tuning", "the answer, its damping, window, margin and verdict",
      [](const StudyResults& r) { return part_of(AnswerKind::tuning, r, "result"); }, kNotTuned},
     {"components", "errors and tolerances of the matched components at the answer",
@@ -74,6 +88,18 @@ constexpr std::array<ResultsTable, 18> kTables = {{
     {"orders", "of every refined quantity: class, orders, limit, and what the wanted error needs",
      [](const StudyResults& r) { return part_of(AnswerKind::convergence, r, "orders"); },
      kNotConverged},
+    {"equilibrium", "coordinates, reactions, holds, closures and points at the equilibrium",
+     [](const StudyResults& r) { return part_of(AnswerKind::statics, r, "equilibrium"); },
+     kNoStatics},
+    {"singular", "singular positions of the course: kind, place, ranks, joints that may move",
+     [](const StudyResults& r) { return part_of(AnswerKind::kinematics, r, "singular"); },
+     "no singular position was passed, or these are no results of kinematics"},
+    {"loops", "basic loops: joints, proper equations, how well they are conditioned",
+     [](const StudyResults& r) { return part_of(AnswerKind::kinematics, r, "loops"); },
+     "these results hold no closed loop"},
+    {"poses", "Euler parameters and position of every link at every position of the course",
+     [](const StudyResults& r) { return part_of(AnswerKind::kinematics, r, "poses"); },
+     kNoKinematics, true},
     {"runtime", "wall time, rank and host of every evaluation",
      [](const StudyResults& r) {
        return Made(titled(runtime_group(latest_by_id(r.evaluations)), r));

@@ -17,7 +17,8 @@ struct ResultsTable {
   std::string_view holds;
   // Nothing where these results have none.
   std::optional<Table> (*make)(const StudyResults& results);
-  const char* lacks = "";  // why it is missing
+  const char* lacks = "";   // why it is missing
+  bool is_history = false;  // a row an instant: what reports draw
 };
 
 std::span<const ResultsTable> results_tables();

@@ -26,6 +26,8 @@ constexpr const char* kResolvedModel = "resolved_model";
 constexpr const char* kResolvedReference = "resolved_reference";
 constexpr const char* kDigestSuffix = "_digest";
 constexpr const char* kFileSuffix = "_file";
+constexpr const char* kModelFile = "model_file";
+constexpr const char* kCourse = "course";
 
 // Settings that change how a study is run and not what it computes.
 Tree without_run_settings(Tree resolved) {
@@ -51,6 +53,12 @@ std::string commented(const std::string& text) {
   return result;
 }
 
+std::string set_comments(const SessionOptions& options) {
+  std::string text;
+  for (const std::string& set : options.set) text += fmt::format("\n# --set {}\n", set);
+  return text;
+}
+
 // A run of another model.
 bool has_own_reference(const StudyInput& input) {
   return input.reference && input.reference->is_run() && input.reference->model != input.model;
@@ -59,8 +67,7 @@ bool has_own_reference(const StudyInput& input) {
 // The study with all defaults; what --set changed and the models follow as comments, so that the
 // text is a study file again.
 std::string resolved_text(const SessionOptions& options, const StudyInput& input) {
-  std::string text = write_toml(input.resolved);
-  for (const std::string& set : options.set) text += fmt::format("\n# --set {}\n", set);
+  std::string text = write_toml(input.resolved) + set_comments(options);
   text += fmt::format("\n# Model of the cases, {}, with --set in it:\n", input.model->file());
   text += commented(write_toml(input.model->tree()));
   if (has_own_reference(input)) {
@@ -91,6 +98,37 @@ std::string machine_text(const Transport& transport) {
                      std::thread::hardware_concurrency(), transport.nodes());
 }
 
+ProvenanceRow start_of(const SessionOptions& options, std::uint64_t total,
+                       const Transport& transport) {
+  const BatchJob job = find_batch_job(read_environment);
+  return {"",
+          unix_time_s(),
+          total,
+          static_cast<std::uint32_t>(transport.size()),
+          transport.host(),
+          program_version(),
+          git_revision(),
+          options.command,
+          std::string(name_of(simd_level().isa)),
+          static_cast<std::uint32_t>(simd_level().lanes),
+          job.id,
+          job.restart};
+}
+
+const std::string* find_text(const StudyResults& results, const std::string& name) {
+  const auto found = std::ranges::find(results.texts, name, &NamedText::name);
+  return found == results.texts.end() ? nullptr : &found->text;
+}
+
+std::string text_of(const StudyResults& results, const std::string& name) {
+  const std::string* found = find_text(results, name);
+  return found == nullptr ? std::string() : *found;
+}
+
+[[noreturn]] void throw_without_input() {
+  throw StoreError("these results do not hold their models as they were run; run them again");
+}
+
 }  // namespace
 
 StudyIdentity make_identity(const SessionOptions& options, const Evaluator& evaluator,
@@ -119,38 +157,45 @@ StudyIdentity make_identity(const SessionOptions& options, const Evaluator& eval
     identity.texts.push_back({kResolvedReference, write_toml(input.reference->model->tree())});
   }
   add_data(input, identity.texts);
-  const BatchJob job = find_batch_job(read_environment);
-  identity.start = {"",
-                    unix_time_s(),
-                    total,
-                    static_cast<std::uint32_t>(transport.size()),
-                    transport.host(),
-                    program_version(),
-                    git_revision(),
-                    options.command,
-                    std::string(name_of(simd_level().isa)),
-                    static_cast<std::uint32_t>(simd_level().lanes),
-                    job.id,
-                    job.restart};
+  identity.start = start_of(options, total, transport);
   return identity;
 }
 
+StudyIdentity make_model_identity(const SessionOptions& options, const std::string& verb,
+                                  const ModelDocument& document, const ModelInput& input,
+                                  const std::string& course, std::vector<Response> responses) {
+  const LocalTransport alone;
+  const std::string model = write_toml(document.tree());
+  StudyIdentity identity;
+  identity.description = {input.name, verb, 0, {}, std::move(responses)};
+  identity.input_sha256 = input_sha256({verb, model, course});
+  identity.texts = {{"model", text_of_file(document.file())},
+                    {"resolved", write_toml(input.resolved) + set_comments(options)},
+                    {"build", version_text()},
+                    {"machine", machine_text(alone)},
+                    {kResolvedModel, model},
+                    {kModelFile, document.file()}};
+  if (!course.empty()) identity.texts.push_back({kCourse, course});
+  identity.start = start_of(options, 1, alone);
+  return identity;
+}
+
+AnalysedTexts analysed_texts(const StudyResults& results) {
+  AnalysedTexts texts{text_of(results, kResolvedModel), text_of(results, kCourse)};
+  if (texts.model.empty()) throw_without_input();
+  return texts;
+}
+
 ResolvedTexts resolved_texts(const StudyResults& results) {
-  const auto find = [&](const std::string& name) {
-    const auto found = std::ranges::find(results.texts, name, &NamedText::name);
-    return found == results.texts.end() ? nullptr : &found->text;
-  };
-  const auto text_of = [&](const std::string& name) {
-    const std::string* found = find(name);
-    return found == nullptr ? std::string() : *found;
-  };
-  ResolvedTexts texts{
-      text_of(kResolvedStudy), text_of(kResolvedModel), text_of(kResolvedReference), {}};
-  for (std::size_t i = 0; const std::string* data = find(data_name(i)); ++i) {
-    texts.data.push_back({text_of(data_name(i) + kFileSuffix), *data});
+  ResolvedTexts texts{text_of(results, kResolvedStudy),
+                      text_of(results, kResolvedModel),
+                      text_of(results, kResolvedReference),
+                      {}};
+  for (std::size_t i = 0; const std::string* data = find_text(results, data_name(i)); ++i) {
+    texts.data.push_back({text_of(results, data_name(i) + kFileSuffix), *data});
   }
-  if (!texts.study.empty() && !texts.model.empty()) return texts;
-  throw StoreError("these results do not hold their models as they were run; run them again");
+  if (texts.study.empty() || texts.model.empty()) throw_without_input();
+  return texts;
 }
 
 std::string directory_of(const SessionOptions& options, const StudyInput& input) {

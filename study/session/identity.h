@@ -14,6 +14,20 @@ namespace linkstudy {
 StudyIdentity make_identity(const SessionOptions& options, const Evaluator& evaluator,
                             std::uint64_t total, const Transport& transport);
 
+// The same of an analysis of one model; `verb` is its kind, `course` what else it was asked (empty:
+// nothing). One evaluation is all of it.
+StudyIdentity make_model_identity(const SessionOptions& options, const std::string& verb,
+                                  const ModelDocument& document, const ModelInput& input,
+                                  const std::string& course, std::vector<Response> responses);
+
+// The model, with what --set changed, and the course that an analysis was asked for.
+struct AnalysedTexts {
+  std::string model;
+  std::string course;
+};
+// Throws StoreError where they are missing.
+AnalysedTexts analysed_texts(const StudyResults& results);
+
 // What make_identity keeps of the resolved input. Throws StoreError where older results have none.
 ResolvedTexts resolved_texts(const StudyResults& results);
 

@@ -11,6 +11,13 @@
 
 namespace linkstudy {
 
+void throw_other_columns(const StudyResults& results) {
+  throw StoreError(
+      fmt::format("these results have other columns than this program gives their input (they "
+                  "are of version {} {}); verify them with that one",
+                  results.program_version, results.git_revision));
+}
+
 std::unique_ptr<Evaluator> make_stored_evaluator(const StudyResults& results) {
   Diagnostics diagnostics;
   const std::string file = "the input that these results hold";
@@ -20,11 +27,8 @@ std::unique_ptr<Evaluator> make_stored_evaluator(const StudyResults& results) {
   throw_if_any(diagnostics);
   const bool fits = std::ranges::equal(evaluator->responses(), results.description.responses, {},
                                        &Response::name, &Response::name);
-  if (fits) return evaluator;
-  throw StoreError(
-      fmt::format("these results have other columns than this program gives their input (they "
-                  "are of version {} {}); verify them with that one",
-                  results.program_version, results.git_revision));
+  if (!fits) throw_other_columns(results);
+  return evaluator;
 }
 
 }  // namespace linkstudy

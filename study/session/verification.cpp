@@ -16,7 +16,9 @@
 #include "study/metrics/response_list.h"
 #include "study/record/digest.h"
 #include "study/record/version.h"
+#include "study/session/analysis_check.h"
 #include "study/session/calibration_run.h"
+#include "study/session/model_results.h"
 #include "study/session/stored_answer.h"
 #include "study/session/stored_evaluator.h"
 #include "study/session/study_record.h"
@@ -350,6 +352,7 @@ std::vector<std::uint64_t> choose_evaluations(const StudyResults& results,
 }
 
 Verification verify_results(const StudyResults& results, const VerifyOptions& options) {
+  if (const auto kind = analysed_kind(results)) return verify_analysis(results, *kind);
   return Verifier(results, options).run();
 }
 

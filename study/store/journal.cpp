@@ -131,7 +131,8 @@ JournalContents read_journal(const std::filesystem::path& directory) {
   }
   if (!std::filesystem::exists(path)) {
     throw StoreError(
-        fmt::format("{}: holds no study ({} is missing)", directory.string(), kJournalName));
+        fmt::format("{}: holds no study ({} is missing); name a directory that -o made",
+                    directory.string(), kJournalName));
   }
   return parse_journal(read_file(path), path);
 }
@@ -180,11 +181,13 @@ void Journal::resume(const std::string& input_sha256) {
   contents_ = parse_journal(file_.read_all(), file_.path());
   require_continuable(contents_, file_.path());
   if (contents_.input_sha256 != input_sha256) {
-    throw StoreError(fmt::format(
-        "{}: holds a study of another input (digest {}..., yours is {}...); choose another "
-        "directory with -o or overwrite it with --fresh",
-        file_.path().parent_path().string(), contents_.input_sha256.substr(0, 12),
-        input_sha256.substr(0, 12)));
+    const std::string kind = contents_.description ? contents_.description->kind : "";
+    throw StoreError(
+        fmt::format("{}: holds a study of another input (of linkstudy {}, digest {}..., yours is "
+                    "{}...); choose another "
+                    "directory with -o or overwrite it with --fresh",
+                    file_.path().parent_path().string(), kind.empty() ? "study" : kind,
+                    contents_.input_sha256.substr(0, 12), input_sha256.substr(0, 12)));
   }
   end_ = contents_.valid_bytes;
   file_.truncate(end_);

@@ -20,18 +20,20 @@ inline constexpr auto kWords<RunStatus> = make_words<RunStatus>({{RunStatus::run
                                                                   "interrupted"}});
 
 // Groups of results.h5 for what a verb concludes from its evaluations.
-enum class AnswerKind { tuning, calibration, convergence };
+enum class AnswerKind { tuning, calibration, convergence, statics, kinematics };
 
 template <>
 inline constexpr auto kWords<AnswerKind> =
     make_words<AnswerKind>({{AnswerKind::tuning, "tuning"},
                             {AnswerKind::calibration, "calibration"},
-                            {AnswerKind::convergence, "convergence"}});
+                            {AnswerKind::convergence, "convergence"},
+                            {AnswerKind::statics, "statics"},
+                            {AnswerKind::kinematics, "kinematics"}});
 
 // What was asked for; constant over all runs into one directory.
 struct StudyDescription {
   std::string name;  // of the study, free text
-  std::string kind;  // "study", "tune", "converge"
+  std::string kind;  // the verb: "study", "tune", "statics"
   std::uint64_t seed = 0;
   std::vector<Parameter> parameters;
   std::vector<Response> responses;

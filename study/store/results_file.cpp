@@ -316,9 +316,28 @@ StudyResults results_from(const JournalContents& contents) {
   return results;
 }
 
+namespace {
+
+// The journal of a directory; where it is missing or damaged, the file of results may be left.
+JournalContents read_begun_journal(const std::filesystem::path& directory) {
+  try {
+    JournalContents contents = read_journal(directory);
+    if (contents.description) return contents;
+    throw StoreError(
+        fmt::format("{}: ended before anything was begun; run it again", directory.string()));
+  } catch (const StoreError& error) {
+    const std::filesystem::path results = directory / kResultsName;
+    if (!std::filesystem::exists(results)) throw;
+    throw StoreError(fmt::format("{}; to read the results that are left, name {}", error.what(),
+                                 results.string()));
+  }
+}
+
+}  // namespace
+
 StudyResults read_stored(const std::filesystem::path& path) {
   if (std::filesystem::is_regular_file(path)) return read_results(path);
-  const JournalContents contents = read_journal(path);
+  const JournalContents contents = read_begun_journal(path);
   StudyResults results = results_from(contents);
   // A study that runs is written to at this moment.
   if (!is_locked(path / kJournalName)) results.dropped = dropped_text(contents, path);

@@ -4,7 +4,8 @@
 //               parent_evaluation. Failed rows stay, with NaN and their cause. What is derived of
 //               the input has the role "derived".
 //   /reference/<name>, /traces/<name>   time histories over their time
-//   /tuning/<name>, /calibration/<name>, /convergence/<name> groups of columns, the answer as JSON
+//   /tuning/<name>, /calibration/<name>, /convergence/<name>, /statics/<name>, /kinematics/<name>
+//               groups of columns, the answer as JSON
 //   /runtime    wall time, rank, host of each evaluation: outside the digest
 //   /provenance one row per start or resume; texts (input, resolved input, build, machine)
 #pragma once

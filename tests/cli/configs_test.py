@@ -121,6 +121,27 @@ class Configs(unittest.TestCase):
                 self.assertTrue(data["mechanisms"])
                 self.assertTrue(all(one["history"] in histories for one in data["mechanisms"]))
 
+    def test_every_mechanism_has_results_of_kinematics_and_statics_with_a_report(self):
+        for path in files_in("mechanisms"):
+            for verb in ("kinematics", "statics"):
+                with self.subTest(file=path.name, verb=verb), \
+                        tempfile.TemporaryDirectory() as folder:
+                    done = run(verb, path, "-o", f"{folder}/results", "--json")
+                    # Most of them have no equilibrium, as nothing holds them.
+                    self.assertIn(done.returncode, {"statics": (0, 3)}.get(verb, (0,)), done.stderr)
+                    made = run("report", f"{folder}/results")
+                    self.assertEqual(0, made.returncode, made.stderr)
+                    page = Path(folder, "results", "report.html").read_text()
+                    data = json.loads(re.search(r'id="data">(.*?)</script>', page, re.S)[1])
+                    found = json.loads(done.stdout)
+                    self.assertEqual(found["digest"], data["digest"])
+                    moving = [one for one in data["mechanisms"] if one["poses"]]
+                    self.assertEqual(done.returncode == 0, len(moving) == 1)
+                    self.assertEqual(data["status"], "failed" if done.returncode else "done")
+                    if found.get("positions"):
+                        self.assertTrue(data["panels"])
+                    self.assertEqual(run("verify", f"{folder}/results").returncode, 0)
+
     def test_the_readme_is_the_key_reference(self):
         done = run("describe", "--markdown")
         self.assertEqual(0, done.returncode, done.stderr)

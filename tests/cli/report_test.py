@@ -1,184 +1,21 @@
 #!/usr/bin/env python3
-"""Reports of every kind of results, as they are written and as a browser (Chromium) shows them.
+"""Reports of studies of every kind, as they are written and as a browser (Chromium) shows them.
 
 usage: report_test.py LINKSTUDY TREE [options of unittest]
 """
 
-import base64
-import html
 import json
 import re
 import shutil
-import struct
-import subprocess
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 from xml.etree import ElementTree
 
-LINKSTUDY = ""
-TREE = Path()
-FLOAT = 2.0 ** -23  # relative spacing of the numbers that curves are stored in
-
-# Before everything else on the page: what it complains about.
-WATCH = """<script>
-window.problems = [];
-window.addEventListener("error", (event) => problems.push(event.message));
-for (const name of ["error", "warn"]) {
-  console[name] = (...words) => problems.push(words.join(" "));
-}
-</script>"""
-
-# After everything else: what can be seen, and what keys and the mouse do.
-PROBE = """<script>
-function colours(canvas) {
-  const copy = document.createElement("canvas");
-  [copy.width, copy.height] = [canvas.width, canvas.height];
-  const context = copy.getContext("2d");
-  context.drawImage(canvas, 0, 0);
-  const words = new Uint32Array(context.getImageData(0, 0, copy.width, copy.height).data.buffer);
-  return new Set(words).size;
-}
-function press(element, key) {
-  element.dispatchEvent(new KeyboardEvent("keydown", {key, bubbles: true, cancelable: true}));
-}
-function spokenBelow(canvas) {
-  return canvas.closest("figure").querySelector("output").textContent;
-}
-addEventListener("load", () => setTimeout(() => {
-  const canvases = [...document.querySelectorAll("canvas")];
-  const charts = canvases.filter((canvas) => canvas.closest(".plot"));
-  const seen = {canvases: canvases.map((canvas) => ({label: canvas.getAttribute("aria-label"),
-                                                     colours: colours(canvas)}))};
-  seen.charts = charts.map((canvas) => {
-    press(canvas, "ArrowRight");
-    const first = spokenBelow(canvas);
-    press(canvas, "End");
-    return [first, spokenBelow(canvas)];
-  });
-  const scene = document.querySelector(".scene canvas");
-  if (scene) {
-    const before = spokenBelow(scene);
-    const still = scene.toDataURL();
-    press(scene, "End");
-    seen.scene = {before, after: spokenBelow(scene), moved: still !== scene.toDataURL()};
-    const scrub = scene.closest("figure").querySelector("input[type=range]");
-    scrub.value = 500;
-    scrub.dispatchEvent(new Event("input"));
-    seen.scene.middle = spokenBelow(scene);
-    press(scene, " ");
-    seen.scene.button = scene.closest("figure").querySelector("button").textContent;
-    press(scene, " ");
-  }
-  for (const choice of document.querySelectorAll("figure select")) {
-    choice.selectedIndex = choice.options.length - 1;
-    choice.dispatchEvent(new Event("change"));
-  }
-  for (const fold of document.querySelectorAll("details")) fold.open = true;
-  setTimeout(() => {
-    seen.text = document.querySelector("main").innerText;
-    seen.tables = document.querySelectorAll("table").length;
-    seen.wide = document.documentElement.scrollWidth > innerWidth;
-    seen.requests = performance.getEntriesByType("resource").map((entry) => entry.name);
-    seen.problems = problems;
-    const mark = document.createElement("pre");
-    mark.id = "seen";
-    mark.textContent = JSON.stringify(seen);
-    document.body.append(mark);
-  }, 300);
-}, 300));
-</script>"""
-
-def run(*arguments, cwd=None):
-    command = [LINKSTUDY, *map(str, arguments)]
-    return subprocess.run(command, capture_output=True, text=True, stdin=subprocess.DEVNULL,
-                          cwd=cwd)
+from page_seen import FLOAT, Given, PageTest, island_of, numbers, run, show
 
 
-def numbers(text, form):
-    data = base64.b64decode(text)
-    return struct.unpack(f"<{len(data) // 4}{form}", data)
-
-
-def island_of(page):
-    found = re.search(r'<script type="application/json" id="data">(.*?)</script>', page, re.S)
-    return json.loads(found[1])
-
-
-def show(page, folder):
-    """What a browser without a network makes of the page."""
-    browser = shutil.which("chromium") or shutil.which("chromium-browser")
-    if browser is None:
-        raise unittest.TestCase.failureException("no chromium: jobs/install.sh --tests installs it")
-    probed = Path(folder) / "probed.html"
-    head, tail = page.split("<style>", 1), page.rsplit("</body>", 1)
-    probed.write_text((head[0] + WATCH + "<style>" + head[1]).rsplit("</body>", 1)[0] + PROBE +
-                      "</body>" + tail[1])
-    flags = ["--headless", "--no-sandbox", "--disable-gpu", "--use-angle=swiftshader",
-             "--enable-unsafe-swiftshader", "--disable-dev-shm-usage", "--no-first-run",
-             "--host-resolver-rules=MAP * ~NOTFOUND", f"--user-data-dir={folder}/browser",
-             "--window-size=1200,900", "--virtual-time-budget=20000", "--dump-dom"]
-    shown = subprocess.run([browser, *flags, probed.as_uri()], capture_output=True, text=True,
-                           timeout=240, stdin=subprocess.DEVNULL)
-    found = re.search(r'<pre id="seen">(.*?)</pre>', shown.stdout, re.S)
-    if not found:
-        raise AssertionError(f"the page did not come to its end: {shown.stderr[-2000:]}")
-    return json.loads(html.unescape(found[1]))
-
-
-class Report(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-        self.results = Path(self.folder.name) / "results"
-
-    def make(self, verb, name, *options):
-        """Runs a shipped file and returns the page of its results."""
-        self.ran = run(verb, TREE / "configs" / "studies" / f"{name}.toml", "-o", self.results,
-                       "--progress", "none", *options)
-        return self.report()
-
-    def report(self, *options):
-        made = run("report", self.results, *options)
-        self.assertEqual(made.returncode, 0, made.stderr)
-        self.notes = made.stderr
-        return (self.results / "report.html").read_text()
-
-    def check_shown(self, page, charts):
-        """No complaint, no request, nothing blank, all by keys; returns what was seen."""
-        seen = show(page, self.folder.name)
-        self.assertEqual(seen["problems"], [])
-        self.assertEqual(seen["requests"], [])
-        self.assertFalse(seen["wide"], "the page is wider than the window")
-        self.assertGreaterEqual(len(seen["charts"]), charts)
-        for canvas in seen["canvases"]:
-            self.assertGreater(canvas["colours"], 5, canvas["label"])
-            self.assertTrue(canvas["label"])
-        for first, last in seen["charts"]:
-            self.assertRegex(first, r": .* -?[\d.]")
-        self.assertTrue(any(first != last for first, last in seen["charts"]))
-        self.assertTrue(seen["scene"]["moved"])
-        self.assertEqual(seen["scene"]["button"], "Pause")
-        texts = {seen["scene"][when] for when in ("before", "middle", "after")}
-        self.assertEqual(len(texts), 3, texts)
-        return seen
-
-    def check_tables(self, page):
-        """Every table of the page is that of `export`, to the last bit."""
-        data = island_of(page)
-        self.assertTrue(data["tables"])
-        for table in data["tables"]:
-            names = ",".join(column["name"] for column in table["columns"])
-            exported = run("export", self.results, "--table", table["name"], "--format", "json",
-                           "--columns", names)
-            self.assertEqual(exported.returncode, 0, exported.stderr)
-            rows = json.loads(exported.stdout)["rows"]
-            for column in table["columns"]:
-                self.assertEqual([row[column["name"]] for row in rows], column["values"],
-                                 f"{table['name']}.{column['name']}")
-        return data
-
+class Report(PageTest):
     def test_a_tune_shows_its_verdict_its_curve_and_its_mechanism(self):
         page = self.make("tune", "rsrrp_tune", "-s", "simulation.end_time=2", "-s",
                          "match.0.window=[0.5, 2]")
@@ -251,7 +88,7 @@ class Report(unittest.TestCase):
             self.assertEqual(again[part], first[part], part)
 
     def test_one_run_of_a_model_is_results_like_any_other(self):
-        model = TREE / "configs" / "mechanisms" / "rsup_clearance_planar.toml"
+        model = Given.tree / "configs" / "mechanisms" / "rsup_clearance_planar.toml"
         options = ["-s", "simulation.end_time=0.2"]
         ran = run("simulate", model, "-o", self.results, *options)
         self.assertEqual(ran.returncode, 0, ran.stderr)
@@ -268,8 +105,19 @@ class Report(unittest.TestCase):
         page = self.report()
         data = self.check_tables(page)
         self.assertEqual(data["status"], "complete")
-        seen = self.check_shown(page, charts=3)
+        # Contact force, displacement, velocity and acceleration of the slider stand open.
+        opened = [(panel["group"], panel["over"]) for panel in data["panels"]]
+        for group in ("closure.R.normal_force", "joint.P.q", "joint.P.v", "joint.P.a"):
+            self.assertIn((group, "time"), opened)
+        seen = self.check_shown(page, charts=7)
         self.assertIn("Journal of R, evaluation 0", seen["text"])
+        few = run("simulate", model, "-o", self.results, "--fresh", "--signals", "joint.P,energy",
+                  *options)
+        self.assertEqual(few.returncode, 0, few.stderr)
+        kept = json.loads(run("export", self.results, "--traces", "--format", "json").stdout)
+        self.assertEqual({name.rsplit(".", 1)[0] for name in kept["rows"][0]} - {"run", "time"},
+                         {"joint.P", "joint.P.force", "joint.P.torque", "joint.P.force_local",
+                          "joint.P.torque_local", "energy"})
         refused = run("simulate", model, "-o", self.results, "--csv", "x.csv")
         self.assertEqual(refused.returncode, 2)
         self.assertIn("--csv with -o", refused.stderr)
@@ -295,8 +143,8 @@ class Report(unittest.TestCase):
 
     def test_a_hostile_name_is_only_a_name(self):
         name = "</script><img src=x onerror=problems.push('ran')>&amp;<!--\u2028\u202e'\\\\\""
-        text = (TREE / "configs" / "studies" / "rsrrp_stiffness.toml").read_text()
-        model = (TREE / "configs" / "mechanisms" / "rsrrp.toml").resolve()
+        text = (Given.tree / "configs" / "studies" / "rsrrp_stiffness.toml").read_text()
+        model = (Given.tree / "configs" / "mechanisms" / "rsrrp.toml").resolve()
         text = re.sub(r"^model = .*$", lambda _: f"model = '{model}'", text, flags=re.M)
         text = re.sub(r"^name = .*$", lambda _: f"name = {json.dumps(name)}", text, flags=re.M)
         study = Path(self.folder.name) / "hostile.toml"
@@ -354,5 +202,4 @@ class Report(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    LINKSTUDY, TREE = sys.argv[1], Path(sys.argv[2])
-    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
+    Given.main(sys.argv)

@@ -93,6 +93,7 @@ function describePoint(figure, s, p) {
 }
 
 function moveCursor(figure, event) {
+  drawIfWaiting(figure);
   const sets = figure.chart.data.datasets;
   let {s, p} = figure.cursor;
   const step = event.shiftKey ? Math.max(1, Math.floor(sets[s].data.length / 20)) : 1;
@@ -114,12 +115,19 @@ function moveCursor(figure, event) {
 }
 
 function numbersOf(figure) {
+  drawIfWaiting(figure);
   return figure.wanted.series.filter((series) => !series.isGuide).flatMap((series) => [
     {name: `${series.name}: ${figure.wanted.x.label}`, unit: "", values: [...series.x]},
     {name: `${series.name}: ${figure.wanted.y.label}`, unit: "", values: [...series.y]}]);
 }
 
+function saveNumbers(figure) {
+  const text = csvOf(numbersOf(figure));
+  download(`${figure.wanted.title}.csv`, text, "text/csv");
+}
+
 function saveImage(figure) {
+  drawIfWaiting(figure);
   const from = figure.chart.canvas;
   const copy = make("canvas", {width: from.width, height: from.height});
   const context = copy.getContext("2d");
@@ -153,19 +161,41 @@ function optionsOf(figure) {
   };
 }
 
+function describe(figure, wanted) {
+  figure.canvas.setAttribute("aria-label", `${wanted.title}. ${wanted.summary ?? ""} ` +
+    "Arrow keys read the points.");
+  figure.heading.textContent = wanted.title;
+  figure.caption.textContent = wanted.summary ?? "";
+}
+
+// A page opens at once however many charts it has: those behind the first are drawn after the
+// first frame, one at a time.
+const kDrawnFirst = 1;
+const waiting = new Map();  // figure -> what is wanted
+
+function drawIfWaiting(figure) {
+  if (waiting.has(figure)) draw(figure, waiting.get(figure));
+}
+
+function drawWaiting() {
+  for (const figure of waiting.keys()) {
+    drawIfWaiting(figure);
+    setTimeout(drawWaiting);
+    return;
+  }
+}
+
 // wanted: {title, summary, x: {label, log, words}, y: likewise, marks: [{name, x | y}],
 //          series: [{name, x, y, line, marker, dash, notes}]}
 function draw(figure, wanted) {
+  waiting.delete(figure);
   const guides = guidesOf(wanted.marks ?? [],
                           wanted.series.map((one) => pointsOf(one, wanted.x, wanted.y)));
   figure.wanted = {...wanted, series: [...wanted.series, ...guides]};
   const sets = figure.wanted.series.map((one, i) =>
     datasetOf(one, i, pointsOf(one, wanted.x, wanted.y)));
   figure.chart?.destroy();
-  figure.canvas.setAttribute("aria-label", `${wanted.title}. ${wanted.summary ?? ""} ` +
-    "Arrow keys read the points.");
-  figure.heading.textContent = wanted.title;
-  figure.caption.textContent = wanted.summary ?? "";
+  describe(figure, wanted);
   figure.cursor = {s: 0, p: -1};
   figure.chart = new Chart(figure.canvas, {type: "scatter", data: {datasets: sets},
                                            options: optionsOf(figure)});
@@ -177,8 +207,7 @@ function addFigure(parent, wanted, controls = null) {
   figure.canvas.addEventListener("keydown", (event) => moveCursor(figure, event));
   const buttons = make("div", {class: "controls"},
     make("button", {type: "button", onclick: () => saveImage(figure)}, "PNG"),
-    make("button", {type: "button", onclick: () => download(`${figure.wanted.title}.csv`,
-      csvOf(numbersOf(figure)), "text/csv")}, "CSV"));
+    make("button", {type: "button", onclick: () => saveNumbers(figure)}, "CSV"));
   const fold = make("details", {}, make("summary", {}, "Numbers"));
   fold.addEventListener("toggle", () => {
     while (fold.childElementCount > 1) fold.lastChild.remove();
@@ -188,13 +217,15 @@ function addFigure(parent, wanted, controls = null) {
                      make("div",
                           {class: wanted.isSquare ? "plot square" : "plot"}, figure.canvas), figure.spoken, figure.caption,
                      buttons, fold));
-  draw(figure, wanted);
+  describe(figure, wanted);
+  waiting.set(figure, wanted);
+  if (figures.length < kDrawnFirst) drawIfWaiting(figure);
   figures.push(figure);
   return figure;
 }
 
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
-  for (const figure of figures) {
+  for (const figure of figures.filter((one) => one.chart)) {
     figure.chart.options = optionsOf(figure);
     figure.chart.update("none");
   }

@@ -1,9 +1,5 @@
 // Time histories of runs: any group of channels, over time or over a joint coordinate.
 
-function channelGroup(name) {
-  return name.replace(/\.(x|y|z|\d+)$/, "");
-}
-
 class History {
   constructor(stored) {
     this.name = stored.name;
@@ -41,16 +37,6 @@ class History {
 
 const histories = data.histories.map((stored) => new History(stored));
 
-// What was matched first, then closures, then the rest.
-function historyGroups() {
-  const names = distinct(histories.flatMap((one) => [...one.channels.keys()]));
-  const matched = data.matches.flatMap((match) => match.channels);
-  const rank = (name) => matched.includes(name) ? 0
-    : /^closure\..*(force|torque)\./.test(name) ? 1 : name.startsWith("closure.") ? 2 : 3;
-  return distinct(names.map((name, i) => [rank(name), i, channelGroup(name)])
-    .sort((a, b) => a[0] - b[0] || a[1] - b[1]).map((one) => one[2]));
-}
-
 // The run that was made again and its reference, else the first two.
 function usualRuns() {
   const again = histories.filter((one) => one.isAgain);
@@ -59,8 +45,8 @@ function usualRuns() {
 
 function historyCurves(group, over, runs) {
   const series = [];
-  const members = distinct(histories.flatMap((one) => [...one.channels.keys()]))
-    .filter((name) => channelGroup(name) === group);
+  const members = distinct(histories.flatMap((one) => [...one.channels.values()])
+    .filter((channel) => channel.group === group).map((channel) => channel.name));
   runs.forEach((run, r) => {
     const history = histories.find((one) => one.name === run);
     members.forEach((name, i) => {
@@ -94,31 +80,35 @@ function historyFigure(group, over, runs) {
   return {title: `${group} over ${over}`,
           summary: `${extremesOf(series.slice(0, 9))}.`,
           x: {label: withUnit(over, over === "time" ? "s" : unitOf(over))},
-          y: {label: withUnit(group, unitOf(first))}, series};
+          y: {label: withUnit(group, unitOf(first))}, series, marks: marksOver(over)};
+}
+
+// Singular positions of a course.
+function marksOver(over) {
+  return data.marks.filter((mark) => mark.at[over] !== undefined)
+    .map((mark) => ({name: `${mark.name} at ${shown(mark.at[over])}`, x: mark.at[over]}));
 }
 
 function addHistories(main) {
-  if (!histories.length) return;
-  const groups = historyGroups();
-  const overs = ["time", ...distinct(histories.flatMap((one) => [...one.channels.keys()]))
-    .filter((name) => /^joint\.[^.]+\.q(\.\d+)?$/.test(name))];
+  if (!data.panels.length) return;
   const again = histories.filter((one) => one.isAgain).map((one) => one.name);
-  const section = addSection(main, "Time histories", again.length
+  const isCourse = data.is_in_words;
+  const section = addSection(main, isCourse ? "Along the course" : "Time histories", isCourse
+    ? "Positions of the course, found again from the stored model." : again.length
     ? `All channels of ${again.join(" and ")} come from the stored input, run again; others are ` +
       "as they were stored."
     : "As they were stored.");
   const grid = addFigures(section, true);
-  historyPanel(grid, groups, overs, groups[0], "time");
-  if (overs.length > 1 && again.length) historyPanel(grid, groups, overs, groups[0], overs[1]);
+  for (const {group, over} of data.panels) historyPanel(grid, group, over);
 }
 
-function historyPanel(grid, groups, overs, group, over) {
+function historyPanel(grid, group, over) {
   const chosen = new Set(usualRuns());
   const redraw = () => draw(figure, historyFigure(what.list.value, across.list.value,
     histories.map((one) => one.name).filter((name) => chosen.has(name))));
-  const what = choice("show", groups, group, redraw);
-  const across = choice("over", overs, over, redraw);
-  const boxes = histories.slice(0, 24).map((one) => make("label", {}, make("input", {
+  const what = choice("show", data.groups, group, redraw);
+  const across = choice("over", data.overs, over, redraw);
+  const boxes = histories.length < 2 ? [] : histories.slice(0, 24).map((one) => make("label", {}, make("input", {
     type: "checkbox", checked: chosen.has(one.name), onchange: (event) => {
       if (event.target.checked) chosen.add(one.name); else chosen.delete(one.name);
       redraw();

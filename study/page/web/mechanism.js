@@ -32,6 +32,7 @@ class Mechanism {
     this.rails = stored.joints.filter((joint) => kSliding.includes(joint.type))
       .map((joint) => this.addRail(joint));
     this.closures = stored.closures.map((closure) => this.addClosure(closure));
+    this.reactions = this.times.length < 2 ? this.addReactions() : [];
     stored.points.forEach((point) => this.addPath(point));
     this.show(this.times[0]);
   }
@@ -164,19 +165,35 @@ class Mechanism {
       return {link, local: matrix};
     });
     const gap = this.addLine("#cc79a7");
-    const arrow = new THREE.ArrowHelper(new THREE.Vector3(0, 0, 1), new THREE.Vector3(), 1,
-                                        this.isGhost ? "#56b4e9" : "#d55e00");
-    this.root.add(arrow);
-    return {name: closure.name, frames, gap, arrow, largest: this.largestForce(closure.name)};
+    const owner = `closure.${closure.name}`;
+    return {frames, gap, force: this.addForce(owner, this.isGhost ? "#56b4e9" : "#d55e00",
+                                              this.largestForce(owner))};
   }
 
-  forceNames(closure) {
-    const names = ["x", "y", "z"].map((axis) => `closure.${closure}.force.${axis}`);
+  // Of a mechanism at rest every joint's, all to one scale.
+  addReactions() {
+    const owners = this.stored.joints.map((joint) => `joint.${joint.name}`);
+    const closures = this.stored.closures.map((closure) => `closure.${closure.name}`);
+    const largest = Math.max(0, ...[...owners, ...closures].map((one) => this.largestForce(one)));
+    this.closures.forEach((closure) => { closure.force.largest = largest; });
+    return this.stored.joints.map((joint, i) => ({
+      end: {link: joint.child, local: frameMatrix(joint.child_frame)},
+      force: this.addForce(owners[i], "#009e73", largest)}));
+  }
+
+  addForce(owner, colour, largest) {
+    const arrow = new THREE.ArrowHelper(new THREE.Vector3(0, 0, 1), new THREE.Vector3(), 1, colour);
+    this.root.add(arrow);
+    return {names: this.forceNames(owner), arrow, largest};
+  }
+
+  forceNames(owner) {
+    const names = ["x", "y", "z"].map((axis) => `${owner}.force.${axis}`);
     return this.history && names.every((name) => this.history.channels.has(name)) ? names : null;
   }
 
-  largestForce(closure) {
-    const names = this.forceNames(closure);
+  largestForce(owner) {
+    const names = this.forceNames(owner);
     if (!names) return 0;
     return Math.max(...names.map((name) => this.history.samples(name).values.reduce(
       (most, value) => (Number.isFinite(value) ? Math.max(most, Math.abs(value)) : most), 0)));
@@ -212,21 +229,25 @@ class Mechanism {
     });
     this.rails.forEach((rail) => rail.line.geometry.setFromPoints(this.placesOf(rail.ends)));
     this.closures.forEach((closure) => this.showClosure(closure, time));
+    this.reactions.forEach(({end, force}) => this.showForce(force, this.placesOf([end])[0], time));
   }
 
   showClosure(closure, time) {
     const ends = this.placesOf(closure.frames);
     closure.gap.geometry.setFromPoints(ends);
-    const names = closure.largest > 0 ? this.forceNames(closure.name) : null;
+    this.showForce(closure.force, ends[0], time);
+  }
+
+  showForce({names, arrow, largest}, place, time) {
     const row = names ? nearest(this.history.time, time) : 0;
     const force = names ? new THREE.Vector3(...names.map((n) => this.history.at(n, row))) : null;
-    const isThere = force !== null && force.length() > 1e-3 * closure.largest;
-    closure.arrow.visible = isThere;
+    const isThere = force !== null && force.length() > 1e-3 * largest;
+    arrow.visible = isThere;
     if (!isThere) return;
-    closure.arrow.position.copy(ends[0]);
-    closure.arrow.setDirection(force.clone().normalize());
-    const length = 0.8 * this.size * force.length() / closure.largest;
-    closure.arrow.setLength(length, Math.min(0.3 * length, 0.08 * this.size),
-                            Math.min(0.15 * length, 0.04 * this.size));
+    arrow.position.copy(place);
+    arrow.setDirection(force.clone().normalize());
+    const length = 0.8 * this.size * force.length() / largest;
+    arrow.setLength(length, Math.min(0.3 * length, 0.08 * this.size),
+                    Math.min(0.15 * length, 0.04 * this.size));
   }
 }

@@ -12,9 +12,6 @@ function addFigures(section, isWide = false) {
   return grid;
 }
 
-const kGoodWords = ["certified", "fitted", "converged", "complete"];
-const kBadWords = ["refuted", "infeasible", "failed"];
-
 function valueTexts() {
   const table = findTable("calibration") || findTable("tuning");
   const [names, values] = ["parameter", "value"].map((name) => findColumn(table, name));
@@ -29,23 +26,20 @@ function valueTexts() {
   });
 }
 
-function verdictOf() {
+function runsText() {
   const {counts} = data;
   const failed = Object.values(counts.failed).reduce((sum, count) => sum + count, 0);
-  const runs = `${counts.ok} of ${counts.evaluations} evaluations ended well` +
-               (failed ? `, ${failed} failed` : "");
-  const status = data.answer?.status ?? data.status;
-  return {status, runs, reason: data.answer?.reason ?? ""};
+  return `${counts.ok} of ${counts.evaluations} evaluations ended well` +
+         (failed ? `, ${failed} failed` : "");
 }
 
 function addVerdict(main) {
-  const {status, runs, reason} = verdictOf();
-  const kind = kGoodWords.includes(status) ? "good" : kBadWords.includes(status) ? "bad" : "doubt";
   main.append(make("h1", {}, data.name || "unnamed"),
-    make("p", {class: `verdict ${kind}`},
-      `${data.kind}: ${status}${reason ? `: ${reason}` : ""}`),
+    make("p", {class: `verdict ${data.tone}`},
+      `${data.kind}: ${data.status}${data.reason ? `: ${data.reason}` : ""}`),
     ...valueTexts().map((text) => make("p", {}, text)),
-    make("p", {}, `${runs}.`),
+    data.is_in_words ? tableElement(findTable("summary").columns, "findings")
+      : make("p", {}, `${runsText()}.`),
     make("p", {class: "faint"}, `linkstudy ${data.program} ${data.revision}; results digest `,
       make("code", {}, data.digest || "none yet")));
   for (const note of [data.dropped, ...data.notes]) {
@@ -64,20 +58,6 @@ function variedColumns() {
     distinct(column.values.filter((value) => value !== null)).length > 1);
 }
 
-function mostFrequent(values) {
-  const counts = new Map();
-  for (const value of values) counts.set(value, (counts.get(value) ?? 0) + 1);
-  return [...counts].sort((a, b) => b[1] - a[1])[0]?.[0];
-}
-
-// Rows with the usual value of every varied parameter but one.
-function rowsAlong(column) {
-  const others = variedColumns().filter((other) => other !== column);
-  const usual = others.map((other) => mostFrequent(other.values));
-  return column.values.map((_, row) => row).filter((row) =>
-    others.every((other, i) => other.values[row] === usual[i]));
-}
-
 function isSpread(values) {
   const positive = values.filter((value) => value > 0);
   return positive.length === values.length && positive.length > 0 &&
@@ -85,11 +65,9 @@ function isSpread(values) {
 }
 
 function along(column, y, rows, extra = {}) {
-  const pairs = rows.map((row) => [column.values[row], y.values[row], row])
-    .filter((pair) => pair[0] !== null).sort((a, b) => a[0] - b[0]);
   const ids = findColumn(findTable("evaluations"), "evaluation");
-  return {x: pairs.map((p) => p[0]), y: pairs.map((p) => p[1]), line: true,
-          notes: pairs.map((p) => `evaluation ${ids.values[p[2]]}`), ...extra};
+  return {x: picked(column, rows), y: picked(y, rows), line: true,
+          notes: picked(ids, rows).map((id) => `evaluation ${id}`), ...extra};
 }
 
 function toleranceMarks() {
@@ -124,6 +102,15 @@ function slopeGuide(column, series) {
           line: true, plain: true, thin: true, isGuide: true, style: 7, dash: [1, 3]};
 }
 
+// Tables that are read as they stand.
+function addFound(main) {
+  for (const [name, title] of [["equilibrium", "At the equilibrium"],
+                               ["singular", "Singular positions"], ["loops", "Closed loops"]]) {
+    const table = findTable(name);
+    if (table) addSection(main, title).append(tableElement(table.columns, name));
+  }
+}
+
 function addErrors(main) {
   const table = findTable("evaluations");
   const varied = variedColumns().filter((column) => data.kind !== "tune" ||
@@ -132,7 +119,7 @@ function addErrors(main) {
   const section = addSection(main, "Errors against the reference");
   const grid = addFigures(section);
   for (const column of varied.slice(0, 6)) {
-    const rows = rowsAlong(column);
+    const rows = data.along[column.name];
     if (distinct(rows.map((row) => column.values[row])).length < 2) continue;
     for (const match of data.matches) {
       const series = match.columns.map((name, i) =>
@@ -143,7 +130,7 @@ function addErrors(main) {
         title: `Largest error over ${column.name}${where}`,
         summary: summariseErrors(column, series),
         x: {label: withUnit(column.name, column.unit),
-            log: isSpread(rows.map((row) => column.values[row]).filter((v) => v !== null))},
+            log: isSpread(picked(column, rows))},
         y: {label: "error, of the reference's largest", log: true},
         series: guide ? [...series, guide] : series,
         marks: [...toleranceMarks(), ...windowMarks(column)]});

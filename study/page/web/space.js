@@ -121,7 +121,8 @@ function addTables(main) {
 
 function addOrigin(main) {
   const section = addSection(main, "Where this comes from");
-  section.append(make("p", {}, "input ", make("code", {}, data.input), `, seed ${data.seed}`));
+  section.append(make("p", {}, "input ", make("code", {}, data.input),
+                      data.is_in_words ? null : `, seed ${data.seed}`));
   for (const text of data.texts) {
     section.append(make("details", {}, make("summary", {}, text.name.replaceAll("_", " ")),
                         make("pre", {tabindex: "0"}, text.text)));

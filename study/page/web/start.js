@@ -8,6 +8,7 @@ function startReport() {
   main.append(contents);
   addMechanism(main);
   addHistories(main);
+  addFound(main);
   addJournals(main);
   addErrors(main);
   addTuning(main);
@@ -24,3 +25,4 @@ function startReport() {
 }
 
 startReport();
+requestAnimationFrame(() => requestAnimationFrame(drawWaiting));  // the second follows a frame

@@ -77,6 +77,7 @@ class Player {
     this.isPlaying = false;
     this.speed = 1;
     this.spoken = make("output", {"aria-live": "off"});
+    this.driven = this.drivenOf(theatre.mechanisms[0]);
     this.scrub = make("input", {type: "range", min: 0, max: 1000, value: 0, "aria-label": "time",
       oninput: () => this.seek(this.begin + this.scrub.value / 1000 * (this.end - this.begin))});
     this.button = make("button", {type: "button", onclick: () => this.toggle()}, "Play");
@@ -89,10 +90,24 @@ class Player {
         one.root.visible = event.target.checked;
         theatre.render();
       }}), one.stored.title));
-    figure.append(make("div", {class: "controls"}, this.button, this.scrub, speeds.element,
-                       views.element, ...runs), this.spoken);
+    const isStill = this.end <= this.begin;
+    const inTime = isStill ? [] : [this.button, this.scrub, speeds.element];
+    figure.append(make("div", {class: "controls"}, ...inTime, views.element, ...runs), this.spoken);
     theatre.renderer.domElement.addEventListener("keydown", (event) => this.key(event));
     this.seek(this.begin);
+  }
+
+  // The coordinates that a course drives: {name, unit, history}.
+  drivenOf(mechanism) {
+    const {history} = mechanism;
+    return mechanism.stored.driven.map((name) =>
+      ({name, history, unit: history.channels.get(name).unit}));
+  }
+
+  // Of the nearest position.
+  drivenText() {
+    return this.driven.map(({name, unit, history}) =>
+      `, ${name} = ${shown(history.at(name, nearest(history.time, this.time)))} ${unit}`).join("");
   }
 
   key(event) {
@@ -128,7 +143,9 @@ class Player {
     this.time = Math.min(Math.max(time, this.begin), this.end);
     this.scrub.value = Math.round(1000 * (this.time - this.begin) /
                                   Math.max(this.end - this.begin, 1e-12));
-    this.spoken.textContent = `t = ${shown(this.time)} s of ${shown(this.end)} s`;
+    this.spoken.textContent = this.end > this.begin
+      ? `t = ${shown(this.time)} s of ${shown(this.end)} s${this.drivenText()}`
+      : this.theatre.mechanisms[0].stored.title;
     this.theatre.show(this.time);
   }
 }
@@ -137,7 +154,8 @@ function addMechanism(main) {
   const moving = data.mechanisms.filter((one) => one.poses.length > 0 && one.links.length > 1);
   if (!moving.length) return;
   const names = moving.map((one) => one.title + (one.load_case ? `, ${one.load_case}` : ""));
-  const section = addSection(main, "The mechanism in motion");
+  const isStill = decode(moving[0].times, Float32Array).length < 2;
+  const section = addSection(main, isStill ? "The mechanism" : "The mechanism in motion");
   const place = make("div", {class: "scene"});
   const figure = make("figure", {}, place);
   section.append(figure);
@@ -145,7 +163,7 @@ function addMechanism(main) {
     const theatre = new Theatre(place, moving.map((one, i) => new Mechanism(one, i > 0)));
     theatre.renderer.domElement.setAttribute("aria-label",
       `Mechanism of ${moving[0].links.length - 1} links, ${names.join(" over ")}. ` +
-      "Space plays, arrow keys move in time.");
+      (isStill ? "" : "Space plays, arrow keys move in time."));
     new Player(theatre, figure);
   } catch (error) {
     place.remove();
@@ -153,5 +171,6 @@ function addMechanism(main) {
   }
   figure.append(make("figcaption", {}, `${names[0]}${names[1] ? `; ${names[1]} as wires` : ""}. ` +
     "Drag turns, wheel zooms. Closures: first frame orange, second blue, gap and force at the " +
-    "first; forces are drawn to the largest of the run."));
+    `first; forces are drawn to the largest of ${isStill ? "all, those of joints green, on the link " +
+    "they carry" : "the run"}.`));
 }

@@ -62,6 +62,13 @@ TEST(Thin, Missing_values_hide_no_extreme) {
   EXPECT_TRUE(std::ranges::binary_search(rows, 504U));
 }
 
+TEST(EvenRows, Hold_both_ends_and_no_more_than_one_beyond_what_is_wanted) {
+  EXPECT_TRUE(even_rows(0, 5).empty());
+  EXPECT_EQ(even_rows(4, 5), (std::vector<std::size_t>{0, 1, 2, 3}));
+  EXPECT_EQ(even_rows(11, 5), (std::vector<std::size_t>{0, 3, 6, 9, 10}));
+  EXPECT_EQ(even_rows(10, 5), (std::vector<std::size_t>{0, 2, 4, 6, 8, 9}));
+}
+
 TEST(Base64, Is_that_of_rfc_4648) {  // its section 10
   EXPECT_EQ(base64(""), "");
   EXPECT_EQ(base64("f"), "Zg==");

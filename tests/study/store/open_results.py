@@ -20,7 +20,7 @@ ENGINES = ("h5netcdf", "netcdf4")
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*\Z")
 CAUSES = ("ok diverged energy_blowup step_budget statics_failed assembly_failed constraint_drift "
           "contact_budget timeout cancelled exception rank_lost invalid_point "
-          "step_too_coarse")
+          "step_too_coarse course_blocked")
 PARAMETER = "closure_S_sde_stiffness"
 RESPONSE = "error_max_closure_S_force_x"
 
@@ -42,7 +42,7 @@ def check_study(path, engine):
         assert math.isnan(error.sel(evaluation=2)) and error.sel(evaluation=3) == 1 / 3.1
         status = study.status
         assert status.dtype == np.uint8 and status.values.tolist() == [0, 0, 1, 0]
-        assert np.asarray(status.attrs["flag_values"]).tolist() == list(range(14))
+        assert np.asarray(status.attrs["flag_values"]).tolist() == list(range(15))
         assert status.attrs["flag_meanings"] == CAUSES
         assert study.message.values.tolist() == [
             "", "", "state is not finite at t = 0.25 s, \u03c9 h = 3.1", ""]

@@ -1,0 +1,20 @@
+#include "study/report/findings.h"
+
+#include "study/report/console.h"
+
+namespace linkstudy {
+
+std::string text_of(const std::vector<Finding>& findings) {
+  std::string text;
+  for (const Finding& finding : findings) text += summary_line(finding.label, finding.text);
+  return text;
+}
+
+Table findings_table(const std::vector<Finding>& findings) {
+  TableOf<Finding> table("findings", "summary", findings);
+  table.add("finding", "", "what it is about", [](const Finding& one) { return one.label; });
+  table.add("text", "", "what was found", [](const Finding& one) { return one.text; });
+  return table.take();
+}
+
+}  // namespace linkstudy
