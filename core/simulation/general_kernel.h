@@ -15,8 +15,7 @@ void run_general(const Mechanism& m, const KernelRun& setting, const LaneCase* c
 
 template <class Isa>
 constexpr std::array<Kernel, 2> general_kernels(InstructionSet isa) {
-  return {{{isa, 1, run_general<Isa, 1>},
-           {isa, Isa::lanes, run_general<Isa, Isa::lanes>}}};
+  return {{{isa, 1, run_general<Isa, 1>}, {isa, Isa::lanes, run_general<Isa, Isa::lanes>}}};
 }
 
 }  // namespace linkstudy

@@ -204,16 +204,12 @@ class Packed {
 
 // A lone case takes one lane: the same bits, and faster than a pack of copies.
 void run_pack(const Mechanism& m, const SimulationOptions& options, std::span<BatchCase> cases,
-              const RunLimits& limits, const StepLoopChoice& choice) {
-  const InstructionSet isa = choice.level.isa;
-  const int lanes = cases.size() == 1 ? 1 : choice.level.lanes;
+              const RunLimits& limits, const SimdLevel& level) {
+  const InstructionSet isa = level.isa;
+  const int lanes = cases.size() == 1 ? 1 : level.lanes;
   Watch watch{limits};
   Packed packed(m, cases);
-  PackCode code;
-  if (!choice.general) {
-    const long steps = make_step_grid(options).count;
-    code = PackCode(m, packed.lanes(), steps, choice.level, lanes);
-  }
+  const PackCode code(m, packed.lanes(), make_step_grid(options).count, level, lanes);
   packed.run(options, watch, find_kernel(isa, lanes), code.get());
 }
 
@@ -251,17 +247,17 @@ SimulationOutcome simulate(const Mechanism& mechanism, const Parameters<double>&
 
 void simulate_batch(const Mechanism& mechanism, const SimulationOptions& options,
                     std::vector<BatchCase>& cases, const RunLimits& limits) {
-  simulate_batch(mechanism, options, cases, limits, {simd_level(), false});
+  simulate_batch(mechanism, options, cases, limits, simd_level());
 }
 
 void simulate_batch(const Mechanism& mechanism, const SimulationOptions& options,
                     std::vector<BatchCase>& cases, const RunLimits& limits,
-                    const StepLoopChoice& choice) {
-  const auto lanes = static_cast<std::size_t>(choice.level.lanes);
+                    const SimdLevel& level) {
+  const auto lanes = static_cast<std::size_t>(level.lanes);
   const std::span<BatchCase> all(cases);
   if (options.integrator != Integrator::rk4) return run_each(mechanism, options, all, limits);
   for (std::size_t i = 0; i < all.size(); i += lanes) {
-    run_pack(mechanism, options, all.subspan(i, std::min(lanes, all.size() - i)), limits, choice);
+    run_pack(mechanism, options, all.subspan(i, std::min(lanes, all.size() - i)), limits, level);
   }
 }
 

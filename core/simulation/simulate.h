@@ -82,13 +82,8 @@ struct BatchCase {
 void simulate_batch(const Mechanism& mechanism, const SimulationOptions& options,
                     std::vector<BatchCase>& cases, const RunLimits& limits = {});
 
-// The same on step loops of choice, for comparisons of them.
-struct StepLoopChoice {
-  SimdLevel level;
-  bool general = false;  // not the one made for this structure
-};
+// The same by step loops of choice, for comparisons of them.
 void simulate_batch(const Mechanism& mechanism, const SimulationOptions& options,
-                    std::vector<BatchCase>& cases, const RunLimits& limits,
-                    const StepLoopChoice& choice);
+                    std::vector<BatchCase>& cases, const RunLimits& limits, const SimdLevel& level);
 
 }  // namespace linkstudy

@@ -419,7 +419,7 @@ TEST(SharedReactions, Lanes_have_the_bits_of_a_lone_run) {
     cases.push_back({&models[i].parameters, &models[i].start, &together[i], {}});
     simulate(models[i].mechanism, models[i].parameters, models[i].start, options, alone[i]);
   }
-  simulate_batch(models[0].mechanism, options, cases, {}, {level, false});
+  simulate_batch(models[0].mechanism, options, cases, {}, level);
   for (std::size_t i = 0; i < count; ++i) {
     ASSERT_EQ(together[i].series[0].rows(), 6u);
     EXPECT_TRUE(same_bits(together[i].series[0].values, alone[i].series[0].values)) << i;

@@ -64,8 +64,8 @@ std::vector<Case> make_cases(const Linkage& linkage, int count, long steps) {
 void run_cases(std::vector<Case>& cases, const SimulationOptions& options, SimdLevel level) {
   std::vector<BatchCase> batch;
   for (Case& c : cases) batch.push_back({&c.model.parameters, &c.model.start, &c.observers, {}});
-  simulate_batch(cases.front().model.mechanism, options, batch, {},
-                 {level, level.kernels != Kernels::written});
+  if (level.kernels != Kernels::written) level.kernels = Kernels::general;
+  simulate_batch(cases.front().model.mechanism, options, batch, {}, level);
   for (std::size_t i = 0; i < cases.size(); ++i) cases[i].outcome = batch[i].outcome;
 }
 
@@ -187,8 +187,9 @@ TEST(Lanes, A_case_in_a_pack_has_the_bits_of_its_own_run) {
 TEST(Lanes, Written_steps_of_fifty_random_linkages_have_the_bits_of_the_general_loop) {
   if (!machine_has(InstructionSet::avx2)) GTEST_SKIP() << "no fused instructions here";
   constexpr long steps = 300;
-  const std::array closures = {JointType::spherical, JointType::universal, JointType::prismatic,
-                               JointType::cylindrical, JointType::planar};
+  const std::array closures = {JointType::spherical,   JointType::universal, JointType::prismatic,
+                               JointType::cylindrical, JointType::planar,    JointType::revolute,
+                               JointType::fixed};
   for (std::uint64_t seed = 10; seed < 60; ++seed) {
     const JointType type = closures[seed % closures.size()];
     const Linkage linkage = seed % 3 == 0   ? random_tree(seed)

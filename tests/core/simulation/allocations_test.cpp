@@ -69,7 +69,7 @@ long allocations_of(const Model& model, long steps, const SimdLevel& level) {
   for (auto& o : observers) cases.push_back({&model.parameters, &model.start, &o, {}});
   const SimulationOptions options = steps_of(1e-4, 1e-4 * static_cast<double>(steps), 1e-3);
   const long before = allocations;
-  simulate_batch(model.mechanism, options, cases, {}, {level, false});
+  simulate_batch(model.mechanism, options, cases, {}, level);
   const long after = allocations;
   EXPECT_EQ(cases.back().outcome.cause, Cause::ok) << cases.back().outcome.message;
   EXPECT_EQ(cases.back().outcome.steps, steps);
