@@ -53,6 +53,7 @@ TEST_F(Verify, Runs_evaluations_again_without_the_files_of_the_input) {
   EXPECT_THAT(some["rerun"], Contains(0));
   EXPECT_THAT(some["rerun"], Contains(11));
   EXPECT_EQ(some["rerun"], verified("out --count 5", 0)["rerun"]);
+  EXPECT_THAT(run("verify out --all").out, HasSubstr("12 of 12 evaluations run again: 0-11\n"));
 }
 
 TEST_F(Verify, Finds_the_number_that_was_changed_by_its_last_bit) {
