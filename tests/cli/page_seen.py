@@ -51,6 +51,10 @@ addEventListener("load", () => setTimeout(() => {
     press(canvas, "End");
     return [first, spokenBelow(canvas)];
   });
+  seen.maps = figures.filter((figure) => figure.wanted.numbers).map(({wanted}) => ({
+    numbers: wanted.numbers, title: wanted.title, logs: [wanted.x.log, wanted.y.log],
+    series: wanted.series.map(({name, x, y, marker, shade, notes}) =>
+      ({name, x, y, marker, shade, notes}))}));
   const scene = document.querySelector(".scene canvas");
   if (scene) seen.scene = {before: spokenBelow(scene)};
   const scrub = scene?.closest("figure").querySelector("input[type=range]");
