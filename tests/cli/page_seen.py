@@ -69,6 +69,21 @@ addEventListener("load", () => setTimeout(() => {
     seen.scene.button = scene.closest("figure").querySelector("button").textContent;
     press(scene, " ");
   }
+  const bent = [...document.querySelectorAll(".scene ~ .controls select")].find(
+    (list) => list.parentElement.textContent.startsWith("bending"));
+  if (bent) {
+    const straight = scene.toDataURL();
+    [bent.value, seen.scene.label] = ["100", scene.getAttribute("aria-label")];
+    bent.dispatchEvent(new Event("change"));
+    seen.scene.bent = {label: scene.getAttribute("aria-label"), spoken: spokenBelow(scene),
+                       moved: straight !== scene.toDataURL()};
+    seen.scene.drawn = [1, 10].map((times) => {
+      const mechanism = new Mechanism(data.mechanisms[0], false);
+      mechanism.bending = times;
+      mechanism.show(mechanism.times.at(-1));
+      return mechanism.links.map((link) => link.matrix.elements);
+    });
+  }
   for (const choice of document.querySelectorAll("figure select")) {
     choice.selectedIndex = choice.options.length - 1;
     choice.dispatchEvent(new Event("change"));

@@ -17,6 +17,12 @@ import numpy as np
 from page_seen import FLOAT, Given, PageTest, island_of, numbers, run, show
 
 
+def vector_of(matrix):
+    """Of a small turn: axis times sine of the angle."""
+    return np.array([matrix[2, 1] - matrix[1, 2], matrix[0, 2] - matrix[2, 0],
+                     matrix[1, 0] - matrix[0, 1]]) / 2
+
+
 class Report(PageTest):
     def test_a_tune_shows_its_verdict_its_curve_and_its_mechanism(self):
         page = self.make("tune", "rsrrp_tune", "-s", "simulation.end_time=2", "-s",
@@ -257,6 +263,41 @@ class Report(PageTest):
         refused = run("simulate", model, "-o", self.results, "--csv", "x.csv")
         self.assertEqual(refused.returncode, 2)
         self.assertIn("--csv with -o", refused.stderr)
+
+    def test_bending_is_drawn_larger_about_the_same_axes(self):
+        model = Given.tree / "configs" / "mechanisms" / "rsup_flexible.toml"
+        ran = run("simulate", model, "-o", self.results, "-s", "simulation.end_time=0.02")
+        self.assertEqual(ran.returncode, 0, ran.stderr)
+        page = self.report()
+        [mechanism] = island_of(page)["mechanisms"]
+        seen = self.check_shown(page, charts=2)["scene"]
+        self.assertNotIn("bending", seen["label"])
+        self.assertIn("100 times their bending", seen["bent"]["label"])
+        self.assertIn("100 times their bending", seen["bent"]["spoken"])
+        self.assertTrue(seen["bent"]["moved"])
+        true, larger = ([np.reshape(one, (4, 4)).T for one in drawn] for drawn in seen["drawn"])
+        poses = np.reshape(numbers(mechanism["poses"], "f"), (-1, len(true), 7))[-1]
+        for pose, one in zip(poses, true, strict=True):
+            np.testing.assert_allclose(one[:3, 3], pose[:3], atol=1e-7)
+        hinges = [joint for joint in mechanism["joints"] if joint["bends"]]
+        self.assertEqual(len(hinges), 4)  # of four segments
+        for joint in hinges:
+            ends = joint["parent"], joint["child"]
+            once, tenfold = (np.linalg.inv(all_[ends[0]]) @ all_[ends[1]]
+                             for all_ in (true, larger))
+            # Poses have 24 bits; a turn near zero has twice their spacing, ten times as large.
+            turn = vector_of(once)
+            self.assertGreater(np.linalg.norm(turn), 1e-5)
+            np.testing.assert_allclose(vector_of(tenfold), 10 * turn, atol=1e-5)
+            at = np.array([*joint["parent_frame"][:3], 1.0])  # unbent, all share one frame
+            np.testing.assert_allclose(tenfold @ at, at, atol=1e-6)
+        # From end to end less than a hundredth of a degree, as the README says.
+        ends = np.linalg.inv(true[hinges[0]["parent"]]) @ true[hinges[-1]["child"]]
+        self.assertLess(np.linalg.norm(vector_of(ends)), np.radians(0.01))
+        moved = {joint["child"] for joint in hinges}
+        for i, (one, other) in enumerate(zip(true, larger, strict=True)):
+            if i not in moved:
+                np.testing.assert_array_equal(one, other)
 
     def test_an_evaluation_of_choice_moves(self):
         self.make("study", "rsrrp_stiffness", "-s", "simulation.end_time=1", "-s",
