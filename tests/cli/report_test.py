@@ -188,6 +188,35 @@ class Report(PageTest):
         best = series["largest step that matches, and its least value"]
         self.assertEqual((best["x"], best["y"]), (series["answer"]["x"][2:], [8e-4]))
 
+    def test_feasible_is_what_keeps_limits_and_the_tightest_tolerance(self):
+        text = (Given.tree / "configs" / "studies" / "rsrrp_tune.toml").read_text()
+        model = (Given.tree / "configs" / "mechanisms" / "rsrrp.toml").resolve()
+        text = re.sub(r"^model = .*$", lambda _: f"model = '{model}'", text, flags=re.M)
+        study = Path(self.folder.name) / "limited.toml"
+        bound = 1e-3  # m: binds near the answer, the error far below it
+        study.write_text(f'{text}\n[[limit]]\nresponse = "gap_max"\nat_most = {bound}\n')
+        self.ran = run("tune", study, "-o", self.results, "--progress", "none", "-s",
+                       "simulation.end_time=1", "-s", "match.0.window=[0.2, 1]", "-s",
+                       "match.0.tolerance=[0.05, 0.02]")
+        page = self.report()
+        binding = {"gap": 0, "error": 0, "nothing": 0}
+        for row, ratio in zip(self.evaluations(), island_of(page)["ratios"], strict=True):
+            if row["status"] != "ok":
+                self.assertIsNone(ratio)
+                continue
+            parts = {"gap": 1 + (row["gap_max"] - bound) / bound,
+                     "error": self.largest_error(row) / 0.02}
+            self.assertAlmostEqual(ratio, max(parts.values()), delta=1e-14 * ratio)
+            binding["nothing" if ratio <= 1 else max(parts, key=parts.get)] += 1
+        self.assertTrue(all(binding.values()), binding)
+        answers = island_of(page)["answer"]["answers"]
+        seen = self.check_clean(page)
+        [shown] = seen["maps"]
+        [stars] = [one for one in shown["series"] if one["name"] == "answer"]
+        self.assertEqual(stars["x"], [one["parameters"]["closure.S.sde.stiffness"]
+                                      for one in answers])
+        self.assertEqual(stars["notes"], ["tolerance 0.05", "tolerance 0.02"])
+
     def test_a_tune_of_two_values_shows_its_staircase_on_the_map(self):
         text = (Given.tree / "configs" / "studies" / "rsrrp_tune_axes.toml").read_text()
         model = (Given.tree / "configs" / "mechanisms" / "rsrrp.toml").resolve()
