@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "study/config/input_error.h"
 #include "study/page/paper_figure.h"
@@ -47,9 +48,50 @@ std::string data_of(const PaperSeries& series, bool x_log, bool y_log) {
     const bool is_there = std::isfinite(series.x[i]) && std::isfinite(series.y[i]) &&
                           (!x_log || series.x[i] > 0.0) && (!y_log || series.y[i] > 0.0);
     // An empty line is a gap.
-    text += is_there ? fmt::format("{:.9g} {:.9g}\n", series.x[i], series.y[i]) : "\n";
+    text += is_there ? fmt::format("{:.9g} {:.9g}", series.x[i], series.y[i]) : "";
+    if (is_there && !series.shade.empty()) text += fmt::format(" {:.9g}", series.shade[i]);
+    text += "\n";
   }
   return text;
+}
+
+std::string style_of(const PaperSeries& series, std::size_t i) {
+  if (series.point) {
+    return fmt::format("using {} with points pt {} ps 0.8 {}",
+                       series.shade.empty() ? "1:2" : "1:2:3", *series.point,
+                       series.shade.empty() ? "lc rgb '#d55e00'" : "lc palette");
+  }
+  return fmt::format("using 1:2 with {} lc rgb '{}' dt {}",
+                     series.has_points ? fmt::format("linespoints pt {} ps 0.4", i + 4) : "lines",
+                     kColours[series.colour % kColours.size()], series.dash % kDashes + 1);
+}
+
+// With some room for marks at the edges.
+std::string range_of(char axis, const PaperFigure& figure) {
+  const bool is_log = (axis == 'x' ? figure.x : figure.y).is_logarithmic;
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (const PaperSeries& series : figure.series) {
+    for (const double value : axis == 'x' ? series.x : series.y) {
+      if (is_log && value <= 0.0) continue;
+      low = std::fmin(low, is_log ? std::log10(value) : value);
+      high = std::fmax(high, is_log ? std::log10(value) : value);
+    }
+  }
+  const double room = 0.05 * (high - low);
+  if (!(room > 0.0)) return "";
+  const auto end = [&](double value) { return is_log ? std::pow(10.0, value) : value; };
+  return fmt::format("set {}range [{:.9g}:{:.9g}]\n", axis, end(low - room), end(high + room));
+}
+
+// One hue by lightness: it reads in grey, too.
+std::string scale_of(const PaperFigure& figure) {
+  return fmt::format(
+      "set palette defined (0 '#c6dbf3', 0.5 '#2a7ad5', 1 '#06234a')\nset cblabel {} noenhanced\n"
+      "{}{}{}",
+      quoted(figure.colour->label),
+      figure.colour->is_logarithmic ? "set logscale cb\nset format cb '10^{%T}'\n" : "",
+      range_of('x', figure), range_of('y', figure));
 }
 
 class Pipe {
@@ -84,6 +126,7 @@ std::string gnuplot_script(const PaperFigure& figure, PaperFormat format,
       terminal_of(format), quoted(output.string()), quoted(figure.x.label), quoted(figure.y.label));
   if (figure.x.is_logarithmic) text += "set logscale x\nset format x '10^{%T}'\n";
   if (figure.y.is_logarithmic) text += "set logscale y\nset format y '10^{%T}'\n";
+  if (figure.colour) text += scale_of(figure);
   for (std::size_t i = 0; i < figure.series.size(); ++i) {
     text +=
         fmt::format("$s{} << LINKSTUDY_END\n{}LINKSTUDY_END\n", i,
@@ -92,10 +135,8 @@ std::string gnuplot_script(const PaperFigure& figure, PaperFormat format,
   std::string plots;
   for (std::size_t i = 0; i < figure.series.size(); ++i) {
     const PaperSeries& series = figure.series[i];
-    plots += fmt::format(
-        "{} $s{} using 1:2 with {} lc rgb '{}' dt {} title {}", plots.empty() ? "" : ",", i,
-        series.has_points ? fmt::format("linespoints pt {} ps 0.4", i + 4) : "lines",
-        kColours[series.colour % kColours.size()], series.dash % kDashes + 1, quoted(series.title));
+    plots += fmt::format("{} $s{} {} title {}", plots.empty() ? "" : ",", i, style_of(series, i),
+                         quoted(series.title));
   }
   int tag = 1;
   for (const PaperMark& mark : figure.marks) {

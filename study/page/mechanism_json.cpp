@@ -75,7 +75,8 @@ class Scene {
                      {"parent", number_of(joint.parent)},
                      {"child", number_of(joint.child)},
                      {"parent_frame", frame_of(joint.frame)},
-                     {"child_frame", frame_of(joint.child_frame)}});
+                     {"child_frame", frame_of(joint.child_frame)},
+                     {"bends", joint.elastic}});
     }
     return all;
   }

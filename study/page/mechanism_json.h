@@ -11,7 +11,8 @@ namespace linkstudy {
 // {"title", "load_case", "history": name of its histories, "ended",
 //  "driven": channels that a course drives,
 //  "links": [{"name", "mass", "center"}],
-//  "joints": [{"name", "type", "parent", "child", "parent_frame", "child_frame"}],
+//  "joints": [{"name", "type", "parent", "child", "parent_frame", "child_frame",
+//              "bends": between two elements of a flexible link; unbent, its frames coincide}],
 //  "closures": [{"name", "type", "model", "radial": clearance in m or null, "first", "second",
 //                "first_frame", "second_frame"}],
 //  "points": [{"name", "link", "position"}], "times", "poses"}

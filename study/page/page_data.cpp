@@ -9,6 +9,7 @@
 #include "study/config/file_kind.h"
 #include "study/metrics/response_list.h"
 #include "study/page/history_panels.h"
+#include "study/page/judged_ratios.h"
 #include "study/page/mechanism_json.h"
 #include "study/page/rows_along.h"
 #include "study/page/thin.h"
@@ -225,6 +226,7 @@ std::string page_json(const StudyResults& results, const MovingRuns& again) {
                {"answer", stored_answer(results)},
                {"tables", tables_of(results)},
                {"matches", matches_of(results)},
+               {"ratios", judged_ratios(results, evaluations)},
                {"along", along_of(results, evaluations)},
                {"texts", Json::array()},
                {"notes", again.notes},

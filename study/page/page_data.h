@@ -12,6 +12,7 @@ namespace linkstudy {
 //  "counts": {"evaluations", "ok", "failed": {cause: count}}, "answer": object or null,
 //  "tables": [{"name", "holds", "columns": [{"name", "unit", "meaning", "role", "values"}]}],
 //  "matches": [{"load_case", "channels", "columns": names of their largest errors}],
+//  "ratios": of every evaluation the largest error over its tolerance (judged_ratios.h), or [],
 //  "along": {parameter: rows of evaluations with all others as usual, ascending (rows_along.h)},
 //  "texts": [{"name", "text"}], "notes": [...],
 //  "histories": [{"name", "evaluation", "is_again", "time", "channels": [{"name", "group",

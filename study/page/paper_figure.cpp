@@ -10,6 +10,7 @@
 #include "core/topology/nearest_name.h"
 #include "study/config/input_error.h"
 #include "study/metrics/response_list.h"
+#include "study/page/map_figure.h"
 #include "study/page/rows_along.h"
 #include "study/record/digest.h"
 #include "study/report/results_tables.h"
@@ -22,10 +23,6 @@ namespace {
 
 using Numbers = std::vector<double>;
 using Figure = std::optional<PaperFigure>;
-
-std::string with_unit(const std::string& label, const std::string& unit) {
-  return unit.empty() || unit == "1" ? label : fmt::format("{} [{}]", label, unit);
-}
 
 const Numbers& numbers_of(const Table& table, std::string_view name) {
   return std::get<Numbers>(find_column(table, name)->values);
@@ -159,14 +156,19 @@ Figure residual_figure(const StudyResults& results) {
   return figure;
 }
 
-constexpr std::array<PaperKind, 4> kPaperKinds = {{
+constexpr std::array<PaperKind, 5> kPaperKinds = {{
     {"errors", "errors against a reference over what was varied", error_figure},
+    {"map", "largest error over its tolerance over two values that vary", map_figure},
     {"histories", "what was matched over time, evaluation and reference", history_figure},
     {"convergence", "differences over the refined value", convergence_figure},
     {"residuals", "residuals of a fit, over time", residual_figure},
 }};
 
 }  // namespace
+
+std::string with_unit(const std::string& label, const std::string& unit) {
+  return unit.empty() || unit == "1" ? label : fmt::format("{} [{}]", label, unit);
+}
 
 std::span<const PaperKind> paper_kinds() {
   return kPaperKinds;

@@ -21,6 +21,10 @@ struct PaperSeries {
   bool has_points = true;
   std::size_t colour = 0;  // of the list of colours
   std::size_t dash = 0;    // of the list of dashes
+  // Lone points of one shape instead of a line; those with numbers in `shade` have the colour of
+  // those on the scale of the figure.
+  std::optional<int> point{};
+  std::vector<double> shade{};
 };
 
 struct PaperAxis {
@@ -36,9 +40,13 @@ struct PaperMark {  // a line across the figure
 
 struct PaperFigure {
   PaperAxis x, y;
-  std::vector<PaperSeries> series;
-  std::vector<PaperMark> marks;
+  std::optional<PaperAxis> colour{};  // scale of the shades
+  std::vector<PaperSeries> series{};
+  std::vector<PaperMark> marks{};
 };
+
+// "step [s]"; pure numbers have none.
+std::string with_unit(const std::string& label, const std::string& unit);
 
 struct PaperKind {
   std::string_view name;

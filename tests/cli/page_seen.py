@@ -51,6 +51,10 @@ addEventListener("load", () => setTimeout(() => {
     press(canvas, "End");
     return [first, spokenBelow(canvas)];
   });
+  seen.maps = figures.filter((figure) => figure.wanted.numbers).map(({wanted}) => ({
+    numbers: wanted.numbers, title: wanted.title, logs: [wanted.x.log, wanted.y.log],
+    series: wanted.series.map(({name, x, y, marker, shade, notes}) =>
+      ({name, x, y, marker, shade, notes}))}));
   const scene = document.querySelector(".scene canvas");
   if (scene) seen.scene = {before: spokenBelow(scene)};
   const scrub = scene?.closest("figure").querySelector("input[type=range]");
@@ -64,6 +68,21 @@ addEventListener("load", () => setTimeout(() => {
     press(scene, " ");
     seen.scene.button = scene.closest("figure").querySelector("button").textContent;
     press(scene, " ");
+  }
+  const bent = [...document.querySelectorAll(".scene ~ .controls select")].find(
+    (list) => list.parentElement.textContent.startsWith("bending"));
+  if (bent) {
+    const straight = scene.toDataURL();
+    [bent.value, seen.scene.label] = ["100", scene.getAttribute("aria-label")];
+    bent.dispatchEvent(new Event("change"));
+    seen.scene.bent = {label: scene.getAttribute("aria-label"), spoken: spokenBelow(scene),
+                       moved: straight !== scene.toDataURL()};
+    seen.scene.drawn = [1, 10].map((times) => {
+      const mechanism = new Mechanism(data.mechanisms[0], false);
+      mechanism.bending = times;
+      mechanism.show(mechanism.times.at(-1));
+      return mechanism.links.map((link) => link.matrix.elements);
+    });
   }
   for (const choice of document.querySelectorAll("figure select")) {
     choice.selectedIndex = choice.options.length - 1;

@@ -12,7 +12,15 @@ import unittest
 from pathlib import Path
 from xml.etree import ElementTree
 
+import numpy as np
+
 from page_seen import FLOAT, Given, PageTest, island_of, numbers, run, show
+
+
+def vector_of(matrix):
+    """Of a small turn: axis times sine of the angle."""
+    return np.array([matrix[2, 1] - matrix[1, 2], matrix[0, 2] - matrix[2, 0],
+                     matrix[1, 0] - matrix[0, 1]]) / 2
 
 
 class Report(PageTest):
@@ -74,6 +82,169 @@ class Report(PageTest):
         seen = self.check_shown(page, charts=4)
         self.assertIn("failures lie between", seen["text"])
         self.assertIn("side by side", seen["text"])
+        [shown] = self.check_map(seen, 0.02)
+        self.assertEqual(shown["logs"], [True, True])  # both are spaced by ratios
+        feasible = [(row["simulation.step"], -row["closure.S.sde.stiffness"])
+                    for row in self.evaluations() if self.largest_error(row) <= 0.02]
+        step, stiffness = max(feasible)
+        [best] = [one for one in shown["series"] if one["name"].startswith("largest step")]
+        self.assertEqual((best["x"], best["y"]), ([step], [-stiffness]))
+
+        path = Path(self.folder.name) / "map.svg"
+        drawn = run("export", self.results, "--figure", "map", "-o", path)
+        self.assertEqual(drawn.returncode, 0, drawn.stderr)
+        errors = [self.largest_error(row) for row in self.evaluations()]
+        failed = sum(error == float("inf") for error in errors)
+        for mark, count in ((6, len(feasible)), (1, failed),  # circle, cross, triangle of gnuplot
+                            (8, len(errors) - len(feasible) - failed)):
+            points = re.findall(rf"<use xlink:href='#gpPt{mark}' transform", path.read_text())
+            self.assertEqual(len(points), count + 1, mark)  # and one in the key
+
+    def test_the_map_is_the_picture_that_the_readme_describes(self):
+        page = self.make("study", "rsrrp_step_and_stiffness")
+        [shown] = self.check_map(self.check_clean(page), 0.02)
+        band = {}
+        for one in shown["series"]:
+            for step, stiffness in zip(one["x"], one["y"], strict=True):
+                if one["marker"] == "circle":
+                    band.setdefault(step, []).append(stiffness)
+        ends = {step: (min(all_), max(all_)) for step, all_ in band.items()}
+        for step, low, high in ((5e-5, 1e6, 1e8), (1e-4, 1e6, 10 ** 7.5), (2e-4, 1e6, 1e7),
+                                (4e-4, 1e6, 10 ** 6.5)):
+            np.testing.assert_allclose(ends[step], (low, high), rtol=1e-12)
+        crosses = [(step, stiffness) for one in shown["series"] if one["marker"] == "crossRot"
+                   for step, stiffness in zip(one["x"], one["y"], strict=True)]
+        self.assertTrue(crosses)
+        for step, stiffness in crosses:
+            self.assertGreater(stiffness, ends[step][1])
+
+    def evaluations(self):
+        return json.loads(run("export", self.results, "--table", "evaluations", "--format",
+                              "json").stdout)["rows"]
+
+    def largest_error(self, row):
+        """Of a row; infinite where it failed."""
+        if row["status"] != "ok":
+            return float("inf")
+        return max(value for name, value in row.items() if name.startswith("error_max_"))
+
+    def check_map(self, seen, tolerance):
+        """The map holds every evaluation that it says once, in the shape and class of its error."""
+        for shown in seen["maps"]:
+            numbers = {column["name"]: column["values"] for column in shown["numbers"]}
+            exported = {row["evaluation"]: row for row in self.evaluations()}
+            rows = [exported[one] for one in numbers["evaluation"]]
+            self.assertGreater(len(rows), 8)
+            for row, ratio in zip(rows, numbers["largest error / tolerance"], strict=True):
+                error = self.largest_error(row)
+                # One division of doubles.
+                expected = None if error == float("inf") else error / tolerance
+                self.assertEqual(ratio, expected, row)
+            drawn, shades = {}, {}
+            for one in shown["series"]:
+                for x, y, note in zip(one["x"], one["y"], one.get("notes") or [], strict=False):
+                    found = re.search(r"evaluation (\d+)$", note)
+                    if found:
+                        drawn.setdefault(int(found[1]), []).append((one, x, y))
+            self.assertEqual(sorted(drawn), sorted(numbers["evaluation"]))
+            across, up = shown["numbers"][1]["name"], shown["numbers"][2]["name"]
+            for row in rows:
+                [(one, x, y)] = drawn[row["evaluation"]]
+                self.assertEqual((x, y), (row[across], row[up]))
+                error = self.largest_error(row)
+                marker = ("crossRot" if error == float("inf") else
+                          "circle" if error <= tolerance else "triangle")
+                self.assertEqual(one["marker"], marker, row)
+                if marker == "crossRot":
+                    self.assertEqual(one["name"], row["status"])
+                    continue
+                low, high = map(float, re.match(r"(\S+) to ([^ ,]+)", one["name"]).groups())
+                self.assertTrue(0.998 * low <= error / tolerance <= 1.002 * high,  # three digits
+                                (one["name"], error / tolerance))
+                shades[low] = one["shade"]
+            ordered = [shades[low] for low in sorted(shades)]
+            self.assertEqual(ordered, sorted(ordered))
+            self.assertEqual(len(set(ordered)), len(ordered))
+        return seen["maps"]
+
+    def test_a_tune_over_steps_shows_a_map_of_value_and_step(self):
+        page = self.make("tune", "rsrrp_tune", "-s", "simulation.end_time=1", "-s",
+                         "match.0.window=[0.2, 1]", "-s", "search.steps=[2e-4,4e-4,8e-4]")
+        data = self.check_tables(page)
+        seen = self.check_shown(page, charts=5)
+        [shown] = self.check_map(seen, 0.02)
+        # What the tuner itself wrote of its scan.
+        ids = {column["name"]: column["values"] for column in shown["numbers"]}
+        ratios = dict(zip(ids["evaluation"], ids["largest error / tolerance"], strict=True))
+        [scan] = [table for table in data["tables"] if table["name"] == "scan"]
+        scanned = {column["name"]: column["values"] for column in scan["columns"]}
+        for number, ratio in zip(scanned["evaluation"], scanned["ratio"], strict=True):
+            self.assertEqual(ratios[number], ratio)
+        series = {one["name"]: one for one in shown["series"]}
+        answers = data["answer"]["answers"]
+        self.assertEqual(series["answer"]["x"], [one["parameters"]["closure.S.sde.stiffness"]
+                                                 for one in answers])
+        self.assertEqual(series["answer"]["y"], [2e-4, 4e-4, 8e-4])
+        best = series["largest step that matches, and its least value"]
+        self.assertEqual((best["x"], best["y"]), (series["answer"]["x"][2:], [8e-4]))
+
+    def test_feasible_is_what_keeps_limits_and_the_tightest_tolerance(self):
+        text = (Given.tree / "configs" / "studies" / "rsrrp_tune.toml").read_text()
+        model = (Given.tree / "configs" / "mechanisms" / "rsrrp.toml").resolve()
+        text = re.sub(r"^model = .*$", lambda _: f"model = '{model}'", text, flags=re.M)
+        study = Path(self.folder.name) / "limited.toml"
+        bound = 1e-3  # m: binds near the answer, the error far below it
+        study.write_text(f'{text}\n[[limit]]\nresponse = "gap_max"\nat_most = {bound}\n')
+        self.ran = run("tune", study, "-o", self.results, "--progress", "none", "-s",
+                       "simulation.end_time=1", "-s", "match.0.window=[0.2, 1]", "-s",
+                       "match.0.tolerance=[0.05, 0.02]")
+        page = self.report()
+        binding = {"gap": 0, "error": 0, "nothing": 0}
+        for row, ratio in zip(self.evaluations(), island_of(page)["ratios"], strict=True):
+            if row["status"] != "ok":
+                self.assertIsNone(ratio)
+                continue
+            parts = {"gap": 1 + (row["gap_max"] - bound) / bound,
+                     "error": self.largest_error(row) / 0.02}
+            self.assertAlmostEqual(ratio, max(parts.values()), delta=1e-14 * ratio)
+            binding["nothing" if ratio <= 1 else max(parts, key=parts.get)] += 1
+        self.assertTrue(all(binding.values()), binding)
+        answers = island_of(page)["answer"]["answers"]
+        seen = self.check_clean(page)
+        [shown] = seen["maps"]
+        [stars] = [one for one in shown["series"] if one["name"] == "answer"]
+        self.assertEqual(stars["x"], [one["parameters"]["closure.S.sde.stiffness"]
+                                      for one in answers])
+        self.assertEqual(stars["notes"], ["tolerance 0.05", "tolerance 0.02"])
+
+    def test_a_tune_of_two_values_shows_its_staircase_on_the_map(self):
+        text = (Given.tree / "configs" / "studies" / "rsrrp_tune_axes.toml").read_text()
+        model = (Given.tree / "configs" / "mechanisms" / "rsrrp.toml").resolve()
+        text = re.sub(r"^model = .*$", lambda _: f"model = '{model}'", text, flags=re.M)
+        text, count = re.subn(r'\[\[tune\]\]\nparameter = "[^"]*\.z"\nrange = .*\n', "", text)
+        self.assertEqual(count, 1)
+        study = Path(self.folder.name) / "two.toml"
+        study.write_text(text.replace("1.0e4, 1.0e7", "1.0e3, 1.0e7"))
+        self.ran = run("tune", study, "-o", self.results, "--progress", "none", "-s",
+                       "simulation.end_time=1", "-s", "match.0.window=[0.2, 1]")
+        page = self.report()
+        data = self.check_tables(page)
+        seen = self.check_shown(page, charts=5)
+        [shown] = self.check_map(seen, 0.02)
+        stairs = json.loads(run("export", self.results, "--table", "staircase", "--format",
+                                "json").stdout)["rows"]
+        corners = sorted((row["closure.S.sde.stiffness.x"], row["closure.S.sde.stiffness.y"])
+                         for row in stairs)
+        series = {one["name"]: one for one in shown["series"]}
+        steps = series["minimal matches"]
+        self.assertEqual(list(zip(steps["x"], steps["y"], strict=True)), corners)
+        self.assertGreater(len(corners), 2)
+        # It falls: of two minimal points none lies below the other.
+        self.assertEqual(steps["y"], sorted(steps["y"], reverse=True))
+        value = data["answer"]["parameters"]
+        self.assertEqual((series["answer"]["x"], series["answer"]["y"]),
+                         ([value["closure.S.sde.stiffness.x"]],
+                          [value["closure.S.sde.stiffness.y"]]))
 
     def test_a_results_file_alone_makes_the_same_page(self):
         page = self.make("study", "rsrrp_stiffness", "-s", "simulation.end_time=1", "-s",
@@ -121,6 +292,41 @@ class Report(PageTest):
         refused = run("simulate", model, "-o", self.results, "--csv", "x.csv")
         self.assertEqual(refused.returncode, 2)
         self.assertIn("--csv with -o", refused.stderr)
+
+    def test_bending_is_drawn_larger_about_the_same_axes(self):
+        model = Given.tree / "configs" / "mechanisms" / "rsup_flexible.toml"
+        ran = run("simulate", model, "-o", self.results, "-s", "simulation.end_time=0.02")
+        self.assertEqual(ran.returncode, 0, ran.stderr)
+        page = self.report()
+        [mechanism] = island_of(page)["mechanisms"]
+        seen = self.check_shown(page, charts=2)["scene"]
+        self.assertNotIn("bending", seen["label"])
+        self.assertIn("100 times their bending", seen["bent"]["label"])
+        self.assertIn("100 times their bending", seen["bent"]["spoken"])
+        self.assertTrue(seen["bent"]["moved"])
+        true, larger = ([np.reshape(one, (4, 4)).T for one in drawn] for drawn in seen["drawn"])
+        poses = np.reshape(numbers(mechanism["poses"], "f"), (-1, len(true), 7))[-1]
+        for pose, one in zip(poses, true, strict=True):
+            np.testing.assert_allclose(one[:3, 3], pose[:3], atol=1e-7)
+        hinges = [joint for joint in mechanism["joints"] if joint["bends"]]
+        self.assertEqual(len(hinges), 4)  # of four segments
+        for joint in hinges:
+            ends = joint["parent"], joint["child"]
+            once, tenfold = (np.linalg.inv(all_[ends[0]]) @ all_[ends[1]]
+                             for all_ in (true, larger))
+            # Poses have 24 bits; a turn near zero has twice their spacing, ten times as large.
+            turn = vector_of(once)
+            self.assertGreater(np.linalg.norm(turn), 1e-5)
+            np.testing.assert_allclose(vector_of(tenfold), 10 * turn, atol=1e-5)
+            at = np.array([*joint["parent_frame"][:3], 1.0])  # unbent, all share one frame
+            np.testing.assert_allclose(tenfold @ at, at, atol=1e-6)
+        # From end to end less than a hundredth of a degree, as the README says.
+        ends = np.linalg.inv(true[hinges[0]["parent"]]) @ true[hinges[-1]["child"]]
+        self.assertLess(np.linalg.norm(vector_of(ends)), np.radians(0.01))
+        moved = {joint["child"] for joint in hinges}
+        for i, (one, other) in enumerate(zip(true, larger, strict=True)):
+            if i not in moved:
+                np.testing.assert_array_equal(one, other)
 
     def test_an_evaluation_of_choice_moves(self):
         self.make("study", "rsrrp_stiffness", "-s", "simulation.end_time=1", "-s",

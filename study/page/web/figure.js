@@ -26,9 +26,12 @@ function axisOf(axis, positions) {
     }});
   }
   if (usesLog) {
+    const there = positions.filter((value) => value > 0);
+    const isShort = Math.max(...there) < 100 * Math.min(...there);
+    const named = isShort ? [1, 2, 5] : [1];
     scale.ticks.callback = (value) => {
       const digits = value / 10 ** Math.floor(Math.log10(value) + 1e-9);
-      return Math.abs(digits - 1) < 1e-6 ? value.toExponential(0).replace("e+", "e") : "";
+      return named.some((one) => Math.abs(digits - one) < 1e-6) ? value.toExponential(0).replace("e+", "e") : "";
     };
     scale.ticks.autoSkip = false;
   }
@@ -49,8 +52,15 @@ function pointsOf(series, x, y) {
   return points;
 }
 
+// One hue by lightness: what is more stands out more from the paper, light or dark. 0 to 1.
+function shadeColour(part) {
+  const isDark = matchMedia("(prefers-color-scheme: dark)").matches;
+  return `hsl(210, 85%, ${isDark ? 25 + 65 * part : 88 - 70 * part}%)`;
+}
+
 function datasetOf(series, i, points) {
-  const colour = kColours[(series.style ?? i) % kColours.length];
+  const isShaded = series.shade !== undefined;
+  const colour = isShaded ? themeColour("--ink") : kColours[(series.style ?? i) % kColours.length];
   const isDense = points.length > 150;
   return {
     label: series.name,
@@ -58,13 +68,15 @@ function datasetOf(series, i, points) {
     showLine: Boolean(series.line),
     spanGaps: false,
     borderColor: colour,
-    backgroundColor: colour + "66",
-    borderWidth: series.thin ? 1 : 2,
+    backgroundColor: isShaded ? shadeColour(series.shade)
+      : series.isHollow ? "transparent" : colour + "66",
+    borderWidth: series.thin || isShaded ? 1 : 2,
     borderDash: series.dash ?? (series.line ? kDashes[i % kDashes.length] : []),
     pointStyle: series.plain ? "line" : series.marker ?? kMarkers[i % kMarkers.length],
-    pointRadius: series.line && (isDense || series.plain) ? 0 : isDense ? 2.5 : 4,
-    pointHoverRadius: 6,
-    order: series.isGuide ? 2 : series.line ? 0 : 1,  // lines lie over points
+    stepped: Boolean(series.isStepped),
+    pointRadius: series.radius ?? (series.line && (isDense || series.plain) ? 0 : isDense ? 2.5 : 4),
+    pointHoverRadius: (series.radius ?? 4) + 2,
+    order: series.isGuide ? 2 : series.line || series.radius > 8 ? 0 : 1,  // over points
   };
 }
 
@@ -116,6 +128,7 @@ function moveCursor(figure, event) {
 
 function numbersOf(figure) {
   drawIfWaiting(figure);
+  if (figure.wanted.numbers) return figure.wanted.numbers;
   return figure.wanted.series.filter((series) => !series.isGuide).flatMap((series) => [
     {name: `${series.name}: ${figure.wanted.x.label}`, unit: "", values: [...series.x]},
     {name: `${series.name}: ${figure.wanted.y.label}`, unit: "", values: [...series.y]}]);
@@ -186,11 +199,13 @@ function drawWaiting() {
 }
 
 // wanted: {title, summary, x: {label, log, words}, y: likewise, marks: [{name, x | y}],
-//          series: [{name, x, y, line, marker, dash, notes}]}
+//          series: [{name, x, y, line, marker, dash, notes, shade: 0 to 1 for more}],
+//          numbers: columns that stand below, instead of those of the series}
 function draw(figure, wanted) {
   waiting.delete(figure);
   const guides = guidesOf(wanted.marks ?? [],
                           wanted.series.map((one) => pointsOf(one, wanted.x, wanted.y)));
+  figure.asked = wanted;
   figure.wanted = {...wanted, series: [...wanted.series, ...guides]};
   const sets = figure.wanted.series.map((one, i) =>
     datasetOf(one, i, pointsOf(one, wanted.x, wanted.y)));
@@ -226,7 +241,6 @@ function addFigure(parent, wanted, controls = null) {
 
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
   for (const figure of figures.filter((one) => one.chart)) {
-    figure.chart.options = optionsOf(figure);
-    figure.chart.update("none");
+    draw(figure, figure.asked);
   }
 });

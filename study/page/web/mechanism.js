@@ -6,6 +6,8 @@ const kSpeeds = [0.1, 0.25, 0.5, 1, 2, 5];
 const kViews = {oblique: [1, -1.4, 0.9], "along x": [1, 0, 0], "along y": [0, -1, 0],
                 "along z": [0, -0.001, 1]};
 
+const kBendings = [1, 10, 100, 1000];  // as many times the bending of flexible links is drawn
+
 const kSliding = ["prismatic", "cylindrical", "screw", "planar"];
 
 function frameMatrix(numbers, offset = 0) {
@@ -25,6 +27,9 @@ class Mechanism {
     this.times = decode(stored.times, Float32Array);
     this.poses = decode(stored.poses, Float32Array);
     this.history = histories.find((one) => one.isAgain && one.name === stored.history) ?? null;
+    this.hinges = stored.links.map((_, i) =>
+      stored.joints.find((joint) => joint.bends && joint.child === i) ?? null);
+    this.bending = 1;
     this.size = this.extent();
     this.root = new THREE.Group();
     this.links = stored.links.map((link, i) => this.addLink(link, i));
@@ -217,14 +222,40 @@ class Mechanism {
     return {low, high, part};
   }
 
-  show(time) {
+  // Of every link between two stored instants.
+  posesAt(time) {
     const {low, high, part} = this.instantOf(time);
     const [p, q, s] = [new THREE.Vector3(), new THREE.Quaternion(), new THREE.Vector3()];
     const [p2, q2] = [new THREE.Vector3(), new THREE.Quaternion()];
-    this.links.forEach((group, i) => {
+    return this.links.map((_, i) => {
       this.poseAt(i, low).decompose(p, q, s);
       this.poseAt(i, high).decompose(p2, q2, s);
-      group.matrix.compose(p.lerp(p2, part), q.slerp(q2, part), s);
+      return new THREE.Matrix4().compose(p.lerp(p2, part), q.slerp(q2, part), s);
+    });
+  }
+
+  // The turn of every hinge of a flexible link, `bending` times as large about the same axis: the
+  // elements stay joined, and the one that holds the others stays in its place.
+  bent(poses, i) {
+    const hinge = this.hinges[i];
+    if (!hinge || this.bending === 1) return poses[i];
+    const [outer, inner] = [frameMatrix(hinge.parent_frame), frameMatrix(hinge.child_frame)];
+    const inverse = (matrix) => new THREE.Matrix4().getInverse(matrix);
+    const turn = inverse(poses[hinge.parent].clone().multiply(outer))
+      .multiply(poses[i]).multiply(inner);
+    const q = new THREE.Quaternion().setFromRotationMatrix(turn);
+    if (q.w < 0) q.set(-q.x, -q.y, -q.z, -q.w);
+    const axis = new THREE.Vector3(q.x, q.y, q.z);
+    const angle = 2 * Math.atan2(axis.length(), q.w) * this.bending;
+    return this.bent(poses, hinge.parent).clone().multiply(outer)
+      .multiply(new THREE.Matrix4().makeRotationAxis(axis.normalize(), angle))
+      .multiply(inverse(inner));
+  }
+
+  show(time) {
+    const poses = this.posesAt(time);
+    this.links.forEach((group, i) => {
+      group.matrix.copy(this.bent(poses, i));
       group.matrixWorldNeedsUpdate = true;
     });
     this.rails.forEach((rail) => rail.line.geometry.setFromPoints(this.placesOf(rail.ends)));

@@ -150,18 +150,18 @@ function summariseErrors(column, series) {
 
 function addTuning(main) {
   const stairs = findTable("staircase");
-  if (rowCount(stairs) > 1) {
+  // Of two values the map shows it.
+  if (rowCount(stairs) > 1 && stairs.columns[2].name !== "objective") {
     const section = addSection(main, "Minimal points that match");
     const [a, b, c] = stairs.columns;
-    const isThird = c.name !== "objective";
     addFigure(addFigures(section), {
       title: `Staircase: ${a.name} and ${b.name}`,
-      summary: `${rowCount(stairs)} points below none of which a match was found` +
-               (isThird ? `; ${c.name} stands in the notes of the points.` : "."),
+      summary: `${rowCount(stairs)} points below none of which a match was found; ${c.name} ` +
+               "stands in the notes of the points.",
       x: {label: withUnit(a.name, a.unit), log: true},
       y: {label: withUnit(b.name, b.unit), log: true},
       series: [{name: "minimal match", x: a.values, y: b.values,
-                notes: isThird ? c.values.map((v) => `${c.name} ${shown(v)} ${c.unit}`) : null}]});
+                notes: c.values.map((v) => `${c.name} ${shown(v)} ${c.unit}`)}]});
   }
   const certificate = findTable("certificate");
   if (rowCount(certificate)) {

@@ -11,6 +11,7 @@ function startReport() {
   addFound(main);
   addJournals(main);
   addErrors(main);
+  addMap(main);
   addTuning(main);
   addCalibration(main);
   addConvergence(main);

@@ -57,6 +57,12 @@ class Theatre {
     this.render();
   }
 
+  // What is not drawn as it is stands in front of the label.
+  tell(remark) {
+    this.remark = remark;
+    this.renderer.domElement.setAttribute("aria-label", remark + this.label);
+  }
+
   show(time) {
     this.mechanisms.forEach((one) => one.show(time));
     this.render();
@@ -85,6 +91,9 @@ class Player {
                           () => { this.speed = Number(speeds.list.value); });
     const views = choice("view", Object.keys(kViews), "oblique",
                          () => theatre.look(views.list.value));
+    const bendings = choice("bending ×", kBendings.map(String), "1",
+                            () => this.bend(Number(bendings.list.value)));
+    const bends = theatre.mechanisms.some((one) => one.hinges.some(Boolean));
     const runs = theatre.mechanisms.map((one) => make("label", {}, make("input", {type: "checkbox",
       checked: true, onchange: (event) => {
         one.root.visible = event.target.checked;
@@ -92,9 +101,17 @@ class Player {
       }}), one.stored.title));
     const isStill = this.end <= this.begin;
     const inTime = isStill ? [] : [this.button, this.scrub, speeds.element];
-    figure.append(make("div", {class: "controls"}, ...inTime, views.element, ...runs), this.spoken);
+    figure.append(make("div", {class: "controls"}, ...inTime, views.element,
+                       ...(bends ? [bendings.element] : []), ...runs), this.spoken);
     theatre.renderer.domElement.addEventListener("keydown", (event) => this.key(event));
     this.seek(this.begin);
+  }
+
+  bend(times) {
+    this.theatre.mechanisms.forEach((one) => { one.bending = times; });
+    this.theatre.tell(times === 1 ? "" :
+      `Flexible links are drawn with ${times} times their bending, other links in their places. `);
+    this.seek(this.time);
   }
 
   // The coordinates that a course drives: {name, unit, history}.
@@ -144,8 +161,9 @@ class Player {
     this.scrub.value = Math.round(1000 * (this.time - this.begin) /
                                   Math.max(this.end - this.begin, 1e-12));
     this.spoken.textContent = this.end > this.begin
-      ? `t = ${shown(this.time)} s of ${shown(this.end)} s${this.drivenText()}`
-      : this.theatre.mechanisms[0].stored.title;
+      ? `${this.theatre.remark}t = ${shown(this.time)} s of ${shown(this.end)} s` +
+        this.drivenText()
+      : this.theatre.remark + this.theatre.mechanisms[0].stored.title;
     this.theatre.show(this.time);
   }
 }
@@ -161,9 +179,10 @@ function addMechanism(main) {
   section.append(figure);
   try {
     const theatre = new Theatre(place, moving.map((one, i) => new Mechanism(one, i > 0)));
-    theatre.renderer.domElement.setAttribute("aria-label",
+    theatre.label =
       `Mechanism of ${moving[0].links.length - 1} links, ${names.join(" over ")}. ` +
-      (isStill ? "" : "Space plays, arrow keys move in time."));
+      (isStill ? "" : "Space plays, arrow keys move in time.");
+    theatre.tell("");
     new Player(theatre, figure);
   } catch (error) {
     place.remove();

@@ -47,5 +47,22 @@ TEST(GnuplotScript, Series_differ_without_colour) {
   EXPECT_THAT(script, HasSubstr("lines lc rgb '#d55e00' dt 2"));
 }
 
+TEST(GnuplotScript, Shades_are_a_third_number_on_a_scale_of_their_own) {
+  PaperFigure figure;
+  figure.colour = PaperAxis{"error / tolerance", true};
+  figure.series = {{"within", {1.0, 2.0}, {3.0, 4.0}}, {"failed", {5.0}, {6.0}}};
+  figure.series[0].point = 7;
+  figure.series[0].shade = {0.25, 0.5};
+  figure.series[1].point = 2;
+  const std::string script = gnuplot_script(figure, PaperFormat::svg, "map.svg");
+  EXPECT_THAT(script, HasSubstr("$s0 << LINKSTUDY_END\n1 3 0.25\n2 4 0.5\nLINKSTUDY_END\n"));
+  EXPECT_THAT(script, HasSubstr("$s1 << LINKSTUDY_END\n5 6\nLINKSTUDY_END\n"));
+  EXPECT_THAT(script, HasSubstr("$s0 using 1:2:3 with points pt 7"));
+  EXPECT_THAT(script, HasSubstr("$s1 using 1:2 with points pt 2"));
+  EXPECT_THAT(script, HasSubstr("set logscale cb"));
+  EXPECT_THAT(gnuplot_script(errors_of_two(), PaperFormat::svg, "a.svg"),
+              Not(HasSubstr("palette")));
+}
+
 }  // namespace
 }  // namespace linkstudy::testing::paper_figure_test

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "study/page/history_panels.h"
+#include "study/page/map_figure.h"
 
 namespace linkstudy::testing::rows_along_test {
 namespace {
@@ -33,6 +34,19 @@ TEST(RowsAlong, Words_are_no_axis_and_choose_nothing) {
   EXPECT_THAT(rows_along(rows, 1), IsEmpty());
   EXPECT_THAT(rows_along(rows, 0), ElementsAre(1, 0));
   EXPECT_THAT(rows_along({}, 0), IsEmpty());
+}
+
+TEST(UsualRows, Leave_two_parameters_free) {
+  const auto rows = evaluations({{1.0, 5.0, "sde", 0.2},
+                                 {2.0, 5.0, "cut", 0.2},
+                                 {2.0, 9.0, "sde", 0.1},
+                                 {3.0, 7.0, "sde", 0.2},
+                                 {4.0, 7.0, "cut", 0.1}});
+  // Three of five are "sde", of those two have 0.2.
+  EXPECT_THAT(usual_rows(rows, 0, 1), ElementsAre(0, 3));
+  // Two have 2.0, each with a word of its own: of equals the first.
+  EXPECT_THAT(usual_rows(rows, 1, 3), ElementsAre(1));
+  EXPECT_THAT(usual_rows({}, 0, 1), IsEmpty());
 }
 
 TEST(ChannelGroup, Is_what_components_and_coordinates_have_in_common) {
