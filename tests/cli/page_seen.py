@@ -41,6 +41,7 @@ function spokenBelow(canvas) {
   return canvas.closest("figure").querySelector("output").textContent;
 }
 addEventListener("load", () => setTimeout(() => {
+  for (const figure of [...waiting.keys()]) drawIfWaiting(figure);  // on a busy machine, some
   const canvases = [...document.querySelectorAll("canvas")];
   const charts = canvases.filter((canvas) => canvas.closest(".plot"));
   const seen = {canvases: canvases.map((canvas) => ({label: canvas.getAttribute("aria-label"),

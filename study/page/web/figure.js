@@ -228,10 +228,9 @@ function addFigure(parent, wanted, controls = null) {
     while (fold.childElementCount > 1) fold.lastChild.remove();
     if (fold.open) fold.append(tableElement(numbersOf(figure), figure.wanted.title));
   });
+  const plot = make("div", {class: wanted.isSquare ? "plot square" : "plot"}, figure.canvas);
   parent.append(make("figure", {}, figure.heading, ...(controls ? [controls] : []),
-                     make("div",
-                          {class: wanted.isSquare ? "plot square" : "plot"}, figure.canvas), figure.spoken, figure.caption,
-                     buttons, fold));
+                     plot, figure.spoken, figure.caption, buttons, fold));
   describe(figure, wanted);
   waiting.set(figure, wanted);
   if (figures.length < kDrawnFirst) drawIfWaiting(figure);
