@@ -123,7 +123,7 @@ tolerance = 0.02
 window = [0.05, 0.2]
 END
 }
-write_study short.toml 15.0
+write_study short.toml 400.0  # some seconds each: a signal meets runs under way
 write_study endless.toml 2e3
 cd "$dir/elsewhere" || exit 1
 
