@@ -20,63 +20,39 @@ namespace linkstudy {
 // slower way.
 inline constexpr double kClearPivot = 1e-4;
 
-// Rows of J of one closure, zero off its support.
-template <class Real>
-inline void update_closure_jacobian(const Mechanism& m, const Parameters<Real>& p,
-                                    const Workspace<Real>& w, int closure, Real* j) {
-  const int nv = m.nv;
-  const int begin = at(m.closures, closure).row_begin;
-  for (const int r : rows_of(at(m.closures, closure))) {
-    for (const int k : support_of(m, at(m.closures, closure))) j[(r - begin) * nv + k] = Real(0.0);
-  }
-  if (at(m.closures, closure).point_rows) add_point_rates(m, p, w, closure, j);
-  for (const int r : other_rows_of(at(m.closures, closure))) {
-    add_row_rates(m, p, w, closure, at(m.cut_rows, r), at(w.cut_rows, r), j + (r - begin) * nv);
-  }
-}
-
-// Workspace::cut_jacobian.
+// Workspace::cut_jacobian, zero off the supports of the closures.
 template <class Real>
 inline void update_jacobian(const Mechanism& m, const Parameters<Real>& p, Workspace<Real>& w) {
   for (const int c : indices_of(m.closures)) {
     const ClosureStructure& closure = at(m.closures, c);
     if (storage_of(closure.model) != RowStorage::cut) continue;
-    update_closure_jacobian(m, p, w, c, w.cut_jacobian.data() + closure.row_begin * m.nv);
-  }
-}
-
-// Rows of J of one closure in Workspace::cut_y.
-template <class Real>
-inline void start_constraint_factor(const Mechanism& m, const Parameters<Real>& p, int closure,
-                                    Workspace<Real>& w) {
-  const ClosureStructure& c = at(m.closures, closure);
-  if (!has_rows_of_two_units(m)) {
-    update_closure_jacobian(m, p, w, closure, w.cut_y.data() + c.row_begin * m.nv);
-    return;
-  }
-  for (const int r : rows_of(c))
-    for (const int k : support_of(m, c)) {
-      at(w.cut_y, r * m.nv + k) = at(w.cut_jacobian, r * m.nv + k);
+    const auto row = [&](int r) { return w.cut_jacobian.data() + r * m.nv; };
+    for (const int r : rows_of(closure))
+      for (const int k : support_of(m, closure)) row(r)[k] = Real(0.0);
+    if (closure.point_rows) add_point_rates(m, p, w, c, row(closure.row_begin));
+    for (const int r : other_rows_of(closure)) {
+      add_row_rates(m, p, w, c, at(m.cut_rows, r), at(w.cut_rows, r), row(r));
     }
+  }
 }
 
-// Y = L^-T J^T by rows; J is kept where independence is judged by it.
+// Y = L^-T J^T by rows, from Workspace::cut_jacobian.
 template <class Real>
 inline void update_constraint_factor(const Mechanism& m, const Parameters<Real>& p,
                                      Workspace<Real>& w) {
+  update_jacobian(m, p, w);
   const Real* h = w.mass.data();
   const int nv = m.nv;
-  if (has_rows_of_two_units(m)) update_jacobian(m, p, w);
   for (const int c : indices_of(m.closures)) {
-    if (storage_of(at(m.closures, c).model) != RowStorage::cut) continue;
+    const ClosureStructure& closure = at(m.closures, c);
+    if (storage_of(closure.model) != RowStorage::cut) continue;
     Real* y = w.cut_y.data();
-    start_constraint_factor(m, p, c, w);
-    for (const int k : support_of(m, at(m.closures, c))) {
+    for (const int r : rows_of(closure))
+      for (const int k : support_of(m, closure)) y[r * nv + k] = at(w.cut_jacobian, r * nv + k);
+    for (const int k : support_of(m, closure)) {
       for (const int a : ancestors(m, k)) {
         const Real l = h[k * nv + a];
-        for (const int r : rows_of(at(m.closures, c))) {
-          y[r * nv + a] = nmadd(l, y[r * nv + k], y[r * nv + a]);
-        }
+        for (const int r : rows_of(closure)) y[r * nv + a] = nmadd(l, y[r * nv + k], y[r * nv + a]);
       }
     }
   }
@@ -137,7 +113,6 @@ inline void update_schur_complement(const Mechanism& m, const Parameters<Real>& 
   w.redundant = lane_bits(factorize_schur(m, p, w)) ^ kAllLanes<Real>;
   w.kept_rows = Real(static_cast<double>(m.cut_row_count()));
   if (w.redundant == 0) return;
-  if (!has_rows_of_two_units(m)) update_jacobian(m, p, w);
   factorize_redundant_rows(m, p, w);
 }
 

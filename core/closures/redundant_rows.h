@@ -121,7 +121,7 @@ inline void update_velocity_scales(const Mechanism& m, const Parameters<Real>& p
     if (storage_of(at(m.closures, c).model) != RowStorage::cut) continue;
     for_relative_velocities(m, at(m.closures, c), [&](int k) {
       Real& scale = at(w.velocity_scale, k);
-      for (int r = at(m.closures, c).row_begin; r < at(m.closures, c).row_end; ++r) {
+      for (const int r : rows_of(at(m.closures, c))) {
         scale = max(scale, scaled_bound(m, p, w, k, r));
       }
     });

@@ -17,9 +17,11 @@ template <class Real>
 class Instant {
  public:
   Instant(const Mechanism& m, const Parameters<Real>& p, const Workspace<Real>& w)
-      : m_(m), p_(p), w_(w), reactions_(make_reactions<Real>(m)) {
-    shared_ = make_shared_reactions<Real>(m);
-  }
+      : m_(m),
+        p_(p),
+        w_(w),
+        reactions_(make_reactions<Real>(m)),
+        shared_(make_shared_reactions<Real>(m)) {}
 
   // y: q (nq), v (nv), z (nz), supplied, dissipated; w must hold the evaluation at (t, y).
   void move_to(Real t, const Real* y) {

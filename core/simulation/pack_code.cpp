@@ -6,7 +6,7 @@
 namespace linkstudy {
 namespace {
 
-constexpr long kOften = 8;  // steps: what is looked at more rarely takes a general step
+constexpr long kOften = 8;  // steps: what is looked at more rarely takes a general evaluation
 
 }  // namespace
 

@@ -30,6 +30,9 @@ class Run {
         active_((1u << count) - 1u),
         p_(pack_parameters<Real>(cases, count)),
         size_(state_size(m)),
+        y_(static_cast<std::size_t>(size_)),
+        correction_(static_cast<std::size_t>(m.nv)),
+        contact_steps_(m.contacts.size()),
         observers_(cases, count),
         w_(make_workspace<Real>(m)),
         rk_(static_cast<std::size_t>(size_)),
@@ -37,9 +40,6 @@ class Run {
         checks_(m_, p_),
         watch_(m_, p_, cases, count, setting.count),
         written_(setting.code) {
-    y_.resize(static_cast<std::size_t>(size_));
-    correction_.resize(static_cast<std::size_t>(m.nv));
-    contact_steps_.resize(m.contacts.size());
     for (int i = 0; i < lanes; ++i) reset(i);
     if (setting.code) written_.start(setting.h, setting.drift_limit, p_);
   }

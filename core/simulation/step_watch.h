@@ -27,9 +27,9 @@ class StepWatch {
         cases_(cases),
         count_(count),
         stride_(std::max(1L, steps / kEvenLooks)),
-        next_(stride_) {
-    heaviest_.assign(static_cast<std::size_t>(look_count(m) - kEvenLooks), Real(0.0));
-    inverse_bound_.resize(static_cast<std::size_t>(m.nz));
+        next_(stride_),
+        heaviest_(static_cast<std::size_t>(look_count(m) - kEvenLooks), Real(0.0)),
+        inverse_bound_(static_cast<std::size_t>(m.nz)) {
     bound_bristles();
   }
 

@@ -30,35 +30,9 @@ Value usual_value(const std::vector<Evaluation>& rows, const std::vector<std::si
   return usual;
 }
 
-// Their middle tells whether they are spaced by ratios or by differences.
-bool is_by_ratios(std::vector<double> values) {
-  std::ranges::sort(values);
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-  const std::size_t n = values.size();
-  if (n == 0) return false;
-  const double low = values.front();
-  const double high = values.back();
-  const double middle = (values[(n - 1) / 2] + values[n / 2]) / 2.0;
-  return low > 0.0 && high > 3.0 * low &&
-         std::abs(middle - std::sqrt(low * high)) < std::abs(middle - (low + high) / 2.0);
-}
-
 bool has_several_steps(const StudyResults& results) {
   const Table* tuning = find_answer_table(results, AnswerKind::tuning, "result");
   return tuning != nullptr && find_column(*tuning, "target_step") != nullptr;
-}
-
-std::vector<std::size_t> map_parameters(const StudyResults& results,
-                                        const std::vector<Evaluation>& rows) {
-  const bool only_confirms = find_word<FileKind>(results.description.kind) == FileKind::tune &&
-                             !has_several_steps(results);
-  std::vector<std::size_t> found;
-  for (std::size_t p = 0; p < results.description.parameters.size(); ++p) {
-    if (only_confirms && results.description.parameters[p].path == "simulation.step") continue;
-    const std::optional<std::vector<double>> own = parameter_numbers(rows, p);
-    if (own && std::ranges::count(*own, own->front()) < std::ssize(*own)) found.push_back(p);
-  }
-  return found;
 }
 
 struct Marks {
@@ -73,6 +47,37 @@ constexpr std::array<Marks, 3> kMarks = {
      {"failed", 2, [](double ratio) { return std::isnan(ratio); }}}};
 
 }  // namespace
+
+std::vector<std::size_t> map_parameters(const StudyResults& results,
+                                        const std::vector<Evaluation>& rows) {
+  const bool only_confirms = find_word<FileKind>(results.description.kind) == FileKind::tune &&
+                             !has_several_steps(results);
+  std::vector<std::size_t> found;
+  for (std::size_t p = 0; p < results.description.parameters.size(); ++p) {
+    if (only_confirms && results.description.parameters[p].path == "simulation.step") continue;
+    const std::optional<std::vector<double>> own = parameter_numbers(rows, p);
+    if (own && std::ranges::count(*own, own->front()) < std::ssize(*own)) found.push_back(p);
+  }
+  return found;
+}
+
+// Their middle tells.
+bool is_by_ratios(const std::vector<Evaluation>& rows, const std::vector<std::size_t>& chosen,
+                  std::size_t parameter) {
+  std::vector<double> values;
+  for (const std::size_t row : chosen) {
+    values.push_back(std::get<double>(rows[row].point.values.at(parameter)));
+  }
+  std::ranges::sort(values);
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  const std::size_t n = values.size();
+  if (n == 0) return false;
+  const double low = values.front();
+  const double high = values.back();
+  const double middle = (values[(n - 1) / 2] + values[n / 2]) / 2.0;
+  return low > 0.0 && high > 3.0 * low &&
+         std::abs(middle - std::sqrt(low * high)) < std::abs(middle - (low + high) / 2.0);
+}
 
 std::vector<std::size_t> usual_rows(const std::vector<Evaluation>& rows, std::size_t a,
                                     std::size_t b) {
@@ -99,11 +104,9 @@ std::optional<PaperFigure> map_figure(const StudyResults& results) {
     return std::get<double>(rows[row].point.values[two[axis]]);
   };
   for (std::size_t axis = 0; axis < 2; ++axis) {
-    std::vector<double> values;
-    for (const std::size_t row : chosen) values.push_back(place(axis, row));
     const Parameter& parameter = results.description.parameters[two[axis]];
     (axis == 0 ? figure.x : figure.y) = {with_unit(parameter.path, parameter.unit),
-                                         is_by_ratios(std::move(values))};
+                                         is_by_ratios(rows, chosen, two[axis])};
   }
   figure.colour = PaperAxis{"largest error / tolerance", true};
   for (const Marks& mark : kMarks) {

@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "study/config/file_kind.h"
 #include "study/metrics/response_list.h"
 #include "study/page/history_panels.h"
 #include "study/page/judged_ratios.h"
+#include "study/page/map_figure.h"
 #include "study/page/mechanism_json.h"
 #include "study/page/rows_along.h"
 #include "study/page/thin.h"
@@ -176,6 +178,27 @@ Json along_of(const StudyResults& results, const std::vector<Evaluation>& evalua
   return all;
 }
 
+// What a map of two values can have as axes, and for each two the rows at the usual values of all
+// others; log: spaced by ratios, of all rows and of those.
+Json map_of(const StudyResults& results, const std::vector<Evaluation>& evaluations) {
+  const std::vector<std::size_t> axes = map_parameters(results, evaluations);
+  const auto path = [&](std::size_t i) { return results.description.parameters[axes[i]].path; };
+  std::vector<std::size_t> all(evaluations.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  Json map = {{"axes", Json::array()}, {"pairs", Json::array()}};
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    map["axes"].push_back({{"name", path(i)}, {"log", is_by_ratios(evaluations, all, axes[i])}});
+    for (std::size_t j = 0; j < i; ++j) {
+      const std::vector<std::size_t> rows = usual_rows(evaluations, axes[j], axes[i]);
+      map["pairs"].push_back({{"log",
+                               {{path(j), is_by_ratios(evaluations, rows, axes[j])},
+                                {path(i), is_by_ratios(evaluations, rows, axes[i])}}},
+                              {"rows", rows}});
+    }
+  }
+  return map;
+}
+
 constexpr std::array<std::string_view, 5> kGoodWords = {"certified", "fitted", "converged",
                                                         "complete", "done"};
 constexpr std::array<std::string_view, 3> kBadWords = {"refuted", "infeasible", "failed"};
@@ -228,6 +251,7 @@ std::string page_json(const StudyResults& results, const MovingRuns& again) {
                {"matches", matches_of(results)},
                {"ratios", judged_ratios(results, evaluations)},
                {"along", along_of(results, evaluations)},
+               {"map", map_of(results, evaluations)},
                {"texts", Json::array()},
                {"notes", again.notes},
                {"mechanisms", Json::array()}};

@@ -7,24 +7,16 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "core/base/isa.h"
 #include "study/record/bytes.h"
 #include "study/record/digest.h"
-#include "study/record/version.h"
 #include "study/session/model_results.h"
 #include "study/session/stored_answer.h"
 #include "study/session/stored_evaluator.h"
+#include "study/session/stored_program.h"
 #include "study/store/store_error.h"
 
 namespace linkstudy {
 namespace {
-
-// Of the greatest number of a unit, between instruction sets that round differently.
-constexpr double kNear = 1e-6;
-
-std::string number_or_nothing(double value) {
-  return std::isnan(value) ? "nothing" : fmt::format("{:.17g}", value);
-}
 
 class AnalysisCheck {
  public:
@@ -49,23 +41,15 @@ class AnalysisCheck {
 
  private:
   void compare_program() {
-    if (stored_.git_revision != git_revision()) {
-      result_.warnings.push_back(
-          fmt::format("these results are of revision {}, this program is {}",
-                      stored_.git_revision.empty() ? "unknown" : stored_.git_revision,
-                      git_revision().empty() ? "of an unknown one" : git_revision()));
-    }
+    if (const auto warning = revision_warning(stored_)) result_.warnings.push_back(*warning);
     // Kinematics runs on no instruction set but that of all processors.
-    if (stored_.provenance.empty() || found_.kind == AnswerKind::kinematics) return;
-    const std::string baseline(name_of(InstructionSet::baseline));
-    const std::string& before = stored_.provenance.back().simd;
-    const std::string now(name_of(simd_level().isa));
-    result_.to_the_bit = before.empty() || (before == baseline) == (now == baseline);
-    if (result_.to_the_bit) return;
+    if (found_.kind == AnswerKind::kinematics) return;
+    const std::optional<std::string> warning = rounding_warning(stored_);
+    result_.to_the_bit = !warning;
+    if (!warning) return;
     result_.warnings.push_back(fmt::format(
-        "these results are of instruction set {}, this start has {}, which rounds differently: "
-        "numbers are compared to {:g} of the greatest of their unit, tables are not",
-        before, now, kNear));
+        "{}: numbers are compared to {:g} of the greatest of their unit, tables are not", *warning,
+        kOtherRounding));
   }
 
   void disagree(const std::string& column, std::string stored, std::string found) {
@@ -98,8 +82,9 @@ class AnalysisCheck {
 
   void compare(const std::string& name, double a, double b, double scale) {
     if (std::isnan(a) && std::isnan(b)) return;
-    const bool agrees = a == b || (!result_.to_the_bit && std::abs(a - b) <= kNear * scale);
-    if (!agrees) disagree(name, number_or_nothing(a), number_or_nothing(b));
+    const bool agrees =
+        a == b || (!result_.to_the_bit && std::abs(a - b) <= kOtherRounding * scale);
+    if (!agrees) disagree(name, shown_number(a), shown_number(b));
   }
 
   // Of each history the first place that differs says it.

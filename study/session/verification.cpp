@@ -21,6 +21,7 @@
 #include "study/session/model_results.h"
 #include "study/session/stored_answer.h"
 #include "study/session/stored_evaluator.h"
+#include "study/session/stored_program.h"
 #include "study/session/study_record.h"
 #include "study/session/tuning_run.h"
 #include "study/store/store_error.h"
@@ -30,9 +31,6 @@
 
 namespace linkstudy {
 namespace {
-
-// Relative, between instruction sets that round differently: integration multiplies roundings.
-constexpr double kOtherRounding = 1e-6;
 
 // Every list "evaluations" below a certificate.
 void collect_evaluations(const nlohmann::json& json, std::vector<std::uint64_t>& ids) {
@@ -66,10 +64,6 @@ std::vector<std::size_t> compared_columns(const StudyDescription& description) {
     columns.insert(columns.end(), one.responses.begin(), one.responses.end());
   }
   return columns;
-}
-
-std::string shown_number(double value) {
-  return std::isnan(value) ? "nothing" : fmt::format("{:.17g}", value);
 }
 
 class Verifier {
@@ -108,24 +102,13 @@ class Verifier {
   }
 
   void compare_program() {
-    if (results_.git_revision != git_revision()) {
-      result_.warnings.push_back(
-          fmt::format("these results are of revision {}, this program is {}",
-                      results_.git_revision.empty() ? "unknown" : results_.git_revision,
-                      git_revision().empty() ? "of an unknown one" : git_revision()));
-    }
+    if (const auto warning = revision_warning(results_)) result_.warnings.push_back(*warning);
     for (std::size_t i = 0; i < evaluator_->responses().size(); ++i) columns_.push_back(i);
-    if (results_.provenance.empty()) return;
-    const std::string baseline(name_of(InstructionSet::baseline));
-    const std::string& before = results_.provenance.back().simd;
-    const std::string now(name_of(simd_level().isa));
-    result_.to_the_bit = before.empty() || (before == baseline) == (now == baseline);
-    if (result_.to_the_bit) return;
+    const std::optional<std::string> warning = rounding_warning(results_);
+    result_.to_the_bit = !warning;
+    if (!warning) return;
     columns_ = compared_columns(results_.description);
-    result_.warnings.push_back(
-        fmt::format("these results are of instruction set {}, this start has {}, which rounds "
-                    "differently: compared to {:g}",
-                    before, now, kOtherRounding));
+    result_.warnings.push_back(fmt::format("{}: compared to {:g}", *warning, kOtherRounding));
   }
 
   void run_again() {

@@ -273,15 +273,6 @@ class EarlierReference : public EarlierResults {
   }
 };
 
-const char* const kCutFile = R"(
-[reference]
-file = "cut.csv"
-[reference.columns]
-time = "time"
-"closure.S.force.x" = "closure.S.force.x"
-"closure.S.force.y" = "closure.S.force.y"
-"closure.S.force.z" = "closure.S.force.z"
-)";
 const char* const kCutResults = "[reference]\nresults = \"cut\"\n";
 
 TEST_F(EarlierReference, Gives_the_errors_of_a_file_of_the_same_numbers_to_the_last_bit) {
@@ -289,7 +280,7 @@ TEST_F(EarlierReference, Gives_the_errors_of_a_file_of_the_same_numbers_to_the_l
   write_csv("cut");
   for (const char* more : {"", "window = [0.05, 0.15]\nscale = \"vector\"\n"}) {
     const std::string by_results = evaluations(kCutResults, more);
-    EXPECT_EQ(evaluations(kCutFile, more), by_results);
+    EXPECT_EQ(evaluations(kForceData, more), by_results);
     EXPECT_THAT(by_results, HasSubstr("error_max_closure_S_force_x"));
   }
 }

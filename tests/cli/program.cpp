@@ -127,6 +127,16 @@ signals = ["closure.S.force"]
 )";
 }
 
+const char* const kForceData = R"(
+[reference]
+file = "cut.csv"
+[reference.columns]
+time = "time"
+"closure.S.force.x" = "closure.S.force.x"
+"closure.S.force.y" = "closure.S.force.y"
+"closure.S.force.z" = "closure.S.force.z"
+)";
+
 std::string tune_text() {
   return R"(format = 1
 kind = "tune"

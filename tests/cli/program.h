@@ -52,6 +52,8 @@ std::string model_text();
 std::string study_text();
 // tune.toml
 std::string tune_text();
+// [reference]: a file cut.csv with the force of S, heads as the channels.
+extern const char* const kForceData;
 
 // The 64 digits after "results digest: ", or nothing.
 std::string digest_in(const std::string& out);

@@ -36,15 +36,6 @@ std::vector<std::vector<double>> numbers_of(const std::string& text) {
 }
 
 const char* const kRun = "reference = { set = { \"closure.S.model\" = \"cut\" } }\n";
-const char* const kData = R"(
-[reference]
-file = "cut.csv"
-[reference.columns]
-time = "time"
-"closure.S.force.x" = "closure.S.force.x"
-"closure.S.force.y" = "closure.S.force.y"
-"closure.S.force.z" = "closure.S.force.z"
-)";
 
 class ReferenceFile : public Program {
  protected:
@@ -90,7 +81,7 @@ class ReferenceFile : public Program {
 TEST_F(ReferenceFile, Gives_the_errors_of_the_run_that_wrote_it) {
   for (const char* more : {"", "window = [0.05, 0.15]\nscale = \"vector\"\n", "floor = 0.3\n"}) {
     const std::vector<double> by_run = errors(kRun, more);
-    const std::vector<double> by_data = errors(kData, more);
+    const std::vector<double> by_data = errors(kForceData, more);
     ASSERT_EQ(6U, by_run.size());
     ASSERT_EQ(6U, by_data.size());
     for (std::size_t i = 0; i < 6; ++i) {
@@ -155,7 +146,7 @@ TEST_F(ReferenceFile, Gives_the_answer_of_a_tune_against_the_run_and_is_verified
   write("tune.toml", text);
   const Ended by_run = run("tune tune.toml -o by_run --json");
   ASSERT_EQ(0, by_run.code) << by_run.err;
-  write("data.toml", replaced(text, kRun, "") + kData);
+  write("data.toml", replaced(text, kRun, "") + kForceData);
   const Ended by_data = run("tune data.toml -o by_data --json");
   ASSERT_EQ(0, by_data.code) << by_data.err;
   const auto answer = [](const Ended& ended) {
@@ -182,7 +173,7 @@ TEST_F(ReferenceFile, Is_part_of_the_input_and_the_same_on_two_ranks) {
                  "reference = { set = { \"closure.S.model\" = \"cut\", \"simulation.step\" = "
                  "1.0e-4 } }",
                  "") +
-            kData);
+            kForceData);
   const Ended alone = run("study study.toml -o alone");
   EXPECT_EQ(0, alone.code) << alone.err;
   const Ended two = run("study study.toml -o two", "mpirun --oversubscribe -n 2");

@@ -8,17 +8,9 @@ function columnOfRatios() {
   return isThere ? {name: "largest error / tolerance", unit: "1", values: data.ratios} : null;
 }
 
-// Rows where every parameter but two has its most frequent value.
-function usualRows(x, y) {
-  const table = findTable("evaluations");
-  let rows = x.values.map((_, row) => row);
-  for (const column of table.columns.filter((one) => one.role === "parameter")) {
-    if (column === x || column === y) continue;
-    const groups = [...groupRows({values: picked(column, rows)})];
-    const most = groups.reduce((a, b) => (b[1].length > a[1].length ? b : a))[0];
-    rows = rows.filter((row) => column.values[row] === most);
-  }
-  return rows;
+// Rows at the usual values of all parameters but two, and which of these are spaced by ratios.
+function usualOf(x, y) {
+  return data.map.pairs.find(({log}) => x.name in log && y.name in log);
 }
 
 // Classes (low, high] of even width, in decades where the values spread. 1 parts two of these.
@@ -64,19 +56,9 @@ function colouredSeries(x, y, value, rows, noteOf) {
   return series;
 }
 
-// Whether values are spaced by ratios rather than by differences: their middle tells.
-function isByRatios(values) {
-  const own = distinct(values).sort((a, b) => a - b);
-  const [low, high, middle] = [own[0], own.at(-1),
-                               (own[(own.length - 1) >> 1] + own[own.length >> 1]) / 2];
-  return low > 0 && high > 3 * low &&
-         Math.abs(middle - Math.sqrt(low * high)) < Math.abs(middle - (low + high) / 2);
-}
-
 // With some room beside the outermost marks.
-function mapAxis(column, rows) {
+function mapAxis(column, rows, log) {
   const values = picked(column, rows);
-  const log = isByRatios(values);
   const [f, back] = log ? [Math.log10, (value) => 10 ** value] : [(v) => v, (v) => v];
   const [low, high] = [f(Math.min(...values)), f(Math.max(...values))];
   const room = 0.05 * (high - low);
@@ -136,7 +118,7 @@ function cheapestPairs(x, y) {
       ({tolerance, at: {...parameters, "simulation.step": step}}));
   }
   const [step, other] = x.name === "simulation.step" ? [x, y] : [y, x];
-  const rows = usualRows(x, y).filter((row) => feasibleOf(row) === "yes");
+  const rows = usualOf(x, y).rows.filter((row) => feasibleOf(row) === "yes");
   if (step.name !== "simulation.step" || data.kind !== "study" || !rows.length) return [];
   const best = rows.reduce((a, b) => {
     const rise = step.values[b] - step.values[a];
@@ -178,31 +160,27 @@ function mapSummary(value, rows, all) {
 
 function mapOf(x, y, value, isWhole) {
   const all = x.values.map((_, row) => row);
+  const usual = usualOf(x, y);
+  const isLog = (axis) => (isWhole ? data.map.axes.find(({name}) => name === axis.name).log
+                                   : usual.log[axis.name]);
   // Of several on one place the least comes last, on top.
   const rows = isWhole
     ? all.sort((a, b) => (value.values[b] ?? Infinity) - (value.values[a] ?? Infinity))
-    : usualRows(x, y);
+    : usual.rows;
   const ids = findColumn(findTable("evaluations"), "evaluation").values;
   const noteOf = (row) => `${value.name} ${shown(value.values[row])} ${value.unit}`.trim() +
                           `, evaluation ${ids[row]}`;
   return {title: `Map of ${value.name}`,
           summary: mapSummary(value, rows, x.values.length),
-          x: mapAxis(x, rows), y: mapAxis(y, rows),
+          x: mapAxis(x, rows, isLog(x)), y: mapAxis(y, rows, isLog(y)),
           numbers: mapNumbers(x, y, value, rows),
           series: [...colouredSeries(x, y, value, rows, noteOf),
                    ...failedSeries(x, y, value, rows, noteOf), ...answerSeries(x, y),
                    ...stairSeries(x, y)]};
 }
 
-// Without the steps at which a tune only confirms.
-function mapAxes() {
-  const hasSteps = findColumn(findTable("tuning"), "target_step") !== null;
-  return variedColumns().filter((column) =>
-    data.kind !== "tune" || hasSteps || column.name !== "simulation.step");
-}
-
 function addMap(main) {
-  const axes = mapAxes();
+  const axes = data.map.axes.map(({name}) => findColumn(findTable("evaluations"), name));
   const errors = data.matches.flatMap((match) => match.columns);
   const numbers = [columnOfRatios(), ...numericColumns().filter((column) =>
     column.role === "response")].filter(Boolean);
@@ -216,8 +194,7 @@ function addMap(main) {
                        which.list.value === "all"));
   };
   const namesOf = (columns) => columns.map((column) => column.name);
-  const usual = usualRows(axes[0], axes[1]);
-  const isWhole = usual.length < Math.min(9, axes[0].values.length);
+  const isWhole = usualOf(axes[0], axes[1]).rows.length < Math.min(9, axes[0].values.length);
   const x = choice("across", namesOf(axes), axes[0].name, redraw);
   const y = choice("up", namesOf(axes), axes[1].name, redraw);
   const colour = choice("colour", namesOf(numbers), chosen.name, redraw);
