@@ -105,8 +105,9 @@ std::optional<PaperFigure> map_figure(const StudyResults& results) {
   };
   for (std::size_t axis = 0; axis < 2; ++axis) {
     const Parameter& parameter = results.description.parameters[two[axis]];
-    (axis == 0 ? figure.x : figure.y) = {with_unit(parameter.path, parameter.unit),
-                                         is_by_ratios(rows, chosen, two[axis])};
+    PaperAxis& drawn = axis == 0 ? figure.x : figure.y;
+    drawn =
+        PaperAxis{with_unit(parameter.path, parameter.unit), is_by_ratios(rows, chosen, two[axis])};
   }
   figure.colour = PaperAxis{"largest error / tolerance", true};
   for (const Marks& mark : kMarks) {
