@@ -18,7 +18,7 @@ inline constexpr double kClearPart = 3.0 * DriftTolerance::most;
 // Cut rows of translations beside rotations.
 [[gnu::always_inline]] inline bool has_rows_of_two_units(const Mechanism& m) {
   int turning = 0;
-  for (const Row& row : m.cut_rows) turning += row.kind == RowKind::rotation ? 1 : 0;
+  for (const Row& row : m.cut_rows) turning += measures_turn(row.kind) ? 1 : 0;
   return turning > 0 && turning < m.cut_row_count();
 }
 
@@ -46,7 +46,7 @@ inline auto rows_are_clear(const Mechanism& m, const Parameters<Real>& p, Worksp
   update_row_scales(m, p, w);
   Real shortest(std::numeric_limits<double>::infinity());
   for (const int r : indices(m.cut_row_count())) {
-    if (at(m.cut_rows, r).kind != RowKind::rotation) shortest = min(shortest, at(w.row_scale, r));
+    if (!measures_turn(at(m.cut_rows, r).kind)) shortest = min(shortest, at(w.row_scale, r));
   }
   sum_independence(m, shortest, w);
   const auto limit = [&w](int r) {

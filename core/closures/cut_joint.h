@@ -20,7 +20,20 @@ namespace linkstudy {
 // slower way.
 inline constexpr double kClearPivot = 1e-4;
 
-// Workspace::cut_jacobian, zero off the supports of the closures.
+// Takes the columns of driven coordinates out of J (core/dynamics/driven_coordinates.h).
+template <class Real>
+inline void take_driven_columns(const Mechanism& m, Workspace<Real>& w) {
+  const int nc = m.cut_row_count();
+  for (const int i : indices_of(m.motions)) {
+    for (const int r : indices(nc)) {
+      Real& entry = at(w.cut_jacobian, r * m.nv + at(m.motions, i).v);
+      at(w.motion_rows, i * nc + r) = entry;
+      entry = Real(0.0);
+    }
+  }
+}
+
+// Workspace::cut_jacobian, zero off the supports of the closures and at driven coordinates.
 template <class Real>
 inline void update_jacobian(const Mechanism& m, const Parameters<Real>& p, Workspace<Real>& w) {
   for (const int c : indices_of(m.closures)) {
@@ -34,6 +47,12 @@ inline void update_jacobian(const Mechanism& m, const Parameters<Real>& p, Works
       add_row_rates(m, p, w, c, at(m.cut_rows, r), at(w.cut_rows, r), row(r));
     }
   }
+  for (const int i : indices_of(m.couplings)) {
+    Real* row = w.cut_jacobian.data() + at(m.couplings, i).row * m.nv;
+    for (const int k : support_of(m, at(m.couplings, i))) row[k] = Real(0.0);
+    add_coupling_rates(m, p, i, row);
+  }
+  take_driven_columns(m, w);
 }
 
 // Y = L^-T J^T by rows, from Workspace::cut_jacobian.
@@ -54,6 +73,13 @@ inline void update_constraint_factor(const Mechanism& m, const Parameters<Real>&
         const Real l = h[k * nv + a];
         for (const int r : rows_of(closure)) y[r * nv + a] = nmadd(l, y[r * nv + k], y[r * nv + a]);
       }
+    }
+  }
+  for (const CouplingStructure& c : m.couplings) {
+    Real* y = w.cut_y.data() + c.row * nv;
+    for (const int k : support_of(m, c)) y[k] = at(w.cut_jacobian, c.row * nv + k);
+    for (const int k : support_of(m, c)) {
+      for (const int a : ancestors(m, k)) y[a] = nmadd(h[k * nv + a], y[k], y[a]);
     }
   }
 }
@@ -157,15 +183,22 @@ inline void update_cut_joints(const Mechanism& m, const Parameters<Real>& p, Wor
   update_schur_complement(m, p, w);
 }
 
+// bias - s. Couplings are linear: what keeps their rates keeps them.
+template <class Real>
+inline Real stabilized_bias(const Mechanism& m, const Parameters<Real>& p, int r,
+                            const RowState<Real>& row) {
+  if (is_of_coupling(at(m.cut_rows, r).kind)) return row.bias;
+  const ClosureParameters<Real>& n = at(p.closures, at(m.cut_rows, r).closure);
+  return madd(n.velocity_gain, row.rate, madd(n.position_gain, row.d, row.bias));
+}
+
 // Multipliers for L^-T tau in Workspace::y; leaves L^-T (tau - J^T lambda) there.
 template <class Real>
 inline void solve_cut_joints(const Mechanism& m, const Parameters<Real>& p, Workspace<Real>& w) {
   if (m.cut_rows.empty()) return;
   for (const int r : indices(m.cut_row_count())) {
     const RowState<Real>& row = at(w.cut_rows, r);
-    const ClosureParameters<Real>& n = at(p.closures, at(m.cut_rows, r).closure);
-    const Real stabilized = madd(n.velocity_gain, row.rate, madd(n.position_gain, row.d, row.bias));
-    at(w.schur_rhs, r) = project_on_row(m, w, r, w.y.data()) + stabilized;
+    at(w.schur_rhs, r) = project_on_row(m, w, r, w.y.data()) + stabilized_bias(m, p, r, row);
   }
   solve_schur(m, w);
   for (const int r : indices(m.cut_row_count())) at(w.cut_rows, r).value = at(w.schur_rhs, r);

@@ -20,7 +20,9 @@ inline void solve_correction(const Mechanism& m, Workspace<Real>& w, Real* dv) {
 }
 
 [[gnu::always_inline]] inline bool projects(const Mechanism& m, int row) {
-  return at(m.closures, at(m.cut_rows, row).closure).stabilization == Stabilization::projection;
+  const Row& r = at(m.cut_rows, row);
+  return is_of_coupling(r.kind) ||
+         at(m.closures, r.closure).stabilization == Stabilization::projection;
 }
 
 // Precondition: kinematics and mass matrix factor of (q, v) are in w. dv is (nv) scratch.

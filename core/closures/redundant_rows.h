@@ -81,7 +81,8 @@ inline Real closure_lever(const Mechanism& m, const Parameters<Real>& p, const W
   return max(sqrt(square / Real(static_cast<double>(count))), Real(kLeastLever) * extent);
 }
 
-// Scales of all rows. A closure without a lever takes the longest of the others, or 1 m.
+// Scales of all rows. A closure without a lever, and a coupling of shifts, takes the longest of the
+// others, or 1 m.
 template <class Real>
 inline void update_row_scales(const Mechanism& m, const Parameters<Real>& p, Workspace<Real>& w) {
   Real longest(0.0);
@@ -91,11 +92,12 @@ inline void update_row_scales(const Mechanism& m, const Parameters<Real>& p, Wor
     longest = max(longest, lever);
     for (const int r : rows_of(at(m.closures, c))) at(w.row_scale, r) = lever;
   }
+  for (const CouplingStructure& c : m.couplings) at(w.row_scale, c.row) = Real(0.0);
   longest = select(longest > Real(0.0), longest, Real(1.0));
   for (const int r : indices(m.cut_row_count())) {
     Real& s = at(w.row_scale, r);
     s = select(s > Real(0.0), s, longest);
-    if (at(m.cut_rows, r).kind == RowKind::rotation) s = Real(1.0);
+    if (measures_turn(at(m.cut_rows, r).kind)) s = Real(1.0);
   }
 }
 
@@ -105,7 +107,7 @@ inline Real scaled_bound(const Mechanism& m, const Parameters<Real>& p, const Wo
                          int k, int r) {
   const Row& row = at(m.cut_rows, r);
   const bool slides = at(m.velocities, k).kind == VelocityKind::translation;
-  if (row.kind == RowKind::rotation) return Real(slides ? 0.0 : 1.0);
+  if (measures_turn(row.kind)) return Real(slides ? 0.0 : 1.0);
   const Real inverse = Real(1.0) / at(w.row_scale, r);
   if (slides) return inverse;
   const Vec3<Real>& point = at(w.closures, row.closure).p2;
@@ -125,6 +127,12 @@ inline void update_velocity_scales(const Mechanism& m, const Parameters<Real>& p
         scale = max(scale, scaled_bound(m, p, w, k, r));
       }
     });
+  }
+  for (const CouplingStructure& c : m.couplings) {
+    for (const int n : terms_of(c)) {
+      Real& scale = at(w.velocity_scale, at(m.coupling_terms, n).v);
+      scale = max(scale, abs(at(p.coupling_factors, n)) / at(w.row_scale, c.row));
+    }
   }
   for (const int k : velocities(m)) {
     Real& scale = at(w.velocity_scale, k);

@@ -16,9 +16,11 @@ bool is_rotation(const Row& row) {
   return measures_turn(row.kind);
 }
 
-double effective(const MatrixXd& j, const MatrixXd& mass) {
-  if (j.rows() == 0) return 0.0;
-  const MatrixXd a = j * mass.ldlt().solve(j.transpose());
+// `moving`: velocities that forces can change.
+double effective(const MatrixXd& rows, const MatrixXd& mass, const std::vector<int>& moving) {
+  if (rows.rows() == 0 || moving.empty()) return 0.0;
+  const MatrixXd j = rows(Eigen::all, moving);
+  const MatrixXd a = j * mass(moving, moving).ldlt().solve(j.transpose());
   const double largest = Eigen::SelfAdjointEigenSolver<MatrixXd>(a).eigenvalues().maxCoeff();
   return largest > 0.0 ? 1.0 / largest : 0.0;
 }
@@ -58,8 +60,12 @@ EffectiveMass compute_effective_mass(const Model& model, const State<double>& s,
   for (int r = c.row_begin; r < c.row_end; ++r) {
     if (is_rotation(m.sde_rows[static_cast<std::size_t>(r)])) ++rotations;
   }
-  return {effective(translation_jacobian(model, w, closure, j), mass),
-          effective(j.middleRows(c.row_end - rotations, rotations), mass)};
+  std::vector<int> moving;
+  for (int k = 0; k < m.nv; ++k) {
+    if (m.velocities[static_cast<std::size_t>(k)].motion < 0) moving.push_back(k);
+  }
+  return {effective(translation_jacobian(model, w, closure, j), mass, moving),
+          effective(j.middleRows(c.row_end - rotations, rotations), mass, moving)};
 }
 
 void resolve_damping(const Linkage& linkage, const State<double>& s, Model& model) {

@@ -19,7 +19,8 @@ Eigen::MatrixXd compute_mass_matrix(const Mechanism& m, const Parameters<double>
   Eigen::MatrixXd l = Eigen::MatrixXd::Identity(m.nv, m.nv);
   Eigen::VectorXd d(m.nv);
   for (int k = 0; k < m.nv; ++k) {
-    d[k] = 1.0 / w.inverse_pivot[static_cast<std::size_t>(k)];
+    const double inverse = w.inverse_pivot[static_cast<std::size_t>(k)];
+    d[k] = inverse > 0.0 ? 1.0 / inverse : 0.0;
     for (int i = m.v_parent[static_cast<std::size_t>(k)]; i >= 0;
          i = m.v_parent[static_cast<std::size_t>(i)]) {
       l(k, i) = w.mass[static_cast<std::size_t>(k * m.nv + i)];

@@ -135,8 +135,8 @@ Steps choose_steps(const Model& model, const State<double>& s, Workspace<double>
   return steps;
 }
 
-MatrixXd linear_system(const Model& model, const State<double>& s,
-                       const std::vector<double>& approach) {
+MatrixXd directed_system(const Model& model, const State<double>& s,
+                         const std::vector<double>& approach) {
   const Mechanism& m = model.mechanism;
   Workspace<double> w = make_workspace<double>(m);
   hold_contacts(m, approach, w);
@@ -172,6 +172,11 @@ double amplification(std::complex<double> z) {
 
 }  // namespace
 
+MatrixXd linear_system(const Model& model, const State<double>& s,
+                       const std::vector<double>& approach) {
+  return directed_system(with_directions(model, s), s, approach);
+}
+
 double stable_step(std::complex<double> lambda) {
   const std::complex<double> z(std::min(lambda.real(), 0.0), lambda.imag());
   const double size = std::abs(z);
@@ -204,7 +209,7 @@ Spectrum spectrum_of(std::vector<std::complex<double>> eigenvalues) {
 Spectrum compute_spectrum(const Model& model, const State<double>& s,
                           const std::vector<double>& approach) {
   if (model.mechanism.nv == 0) return spectrum_of({});
-  const MatrixXd a = linear_system(with_directions(model, s), s, approach);
+  const MatrixXd a = linear_system(model, s, approach);
   if (!a.allFinite()) {
     const double unknown = std::numeric_limits<double>::quiet_NaN();
     return {{}, unknown, unknown};

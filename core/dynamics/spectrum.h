@@ -11,6 +11,7 @@
 // method) count with their real part set to zero.
 #pragma once
 
+#include <Eigen/Core>
 #include <complex>
 #include <vector>
 
@@ -28,6 +29,10 @@ struct Spectrum {
 // Where a joint jams nothing is known: omega_max and step_limit are not numbers.
 Spectrum compute_spectrum(const Model& model, const State<double>& s,
                           const std::vector<double>& approach = {});
+
+// A of the linear system above, (2 nv + nz)^2; not finite where a joint jams.
+Eigen::MatrixXd linear_system(const Model& model, const State<double>& s,
+                              const std::vector<double>& approach = {});
 
 Spectrum spectrum_of(std::vector<std::complex<double>> eigenvalues);
 

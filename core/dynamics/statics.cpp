@@ -136,6 +136,7 @@ StaticsReport solve_statics(const Model& model, State<double>& s) {
 Model with_holding_efforts(const Model& model, const StaticsReport& report) {
   Model held = model;
   for (const int k : model.held) {
+    if (model.mechanism.velocities[static_cast<std::size_t>(k)].motion >= 0) continue;
     held.mechanism.loads.push_back({.type = LoadType::drive, .v = k});
     held.parameters.loads.push_back({report.holding[k], 0.0, {}, {}});
   }

@@ -237,11 +237,19 @@ void name_worst_closure(const Model& model, const VectorXd& residual, AssemblyRe
     double gap = 0.0, tilt = 0.0;
     for (int row = c.row_begin; row < c.row_end; ++row) {
       const auto k = static_cast<std::size_t>(row);
-      const bool turns = model.mechanism.cut_rows[k].kind == RowKind::rotation;
+      const bool turns = measures_turn(model.mechanism.cut_rows[k].kind);
       (turns ? tilt : gap) += residual[row] * residual[row];
     }
     report.worst_gap = std::sqrt(gap);
     report.worst_tilt = std::asin(std::min(1.0, std::sqrt(tilt)));
+  }
+  for (std::size_t i = 0; i < model.mechanism.couplings.size(); ++i) {
+    const double r = std::abs(residual[model.mechanism.couplings[i].row]);
+    if (r <= worst) continue;
+    worst = r;
+    report.worst_closure.clear();
+    report.worst_coupling = model.mechanism.coupling_names[i];
+    report.worst_gap = r;
   }
 }
 
@@ -313,6 +321,10 @@ std::string open_text(const AssemblyReport& report) {
     text << std::setprecision(3) << x;
     return text.str();
   };
+  if (!report.worst_coupling.empty()) {
+    return "coupling." + report.worst_coupling + " is off by " + number(report.worst_gap) +
+           "; leave out its offset to take the pose that is described";
+  }
   if (report.worst_closure.empty()) return turned_text(report.turned);
   std::string text = "closure." + report.worst_closure + " stays open: gap " +
                      number(report.worst_gap) + " m, axes apart by " + number(report.worst_tilt) +
@@ -340,6 +352,7 @@ std::vector<int> free_velocities(const Model& model) {
 Model compile_closed(const Linkage& linkage) {
   Linkage closed = linkage;
   for (Closure& c : closed.closures) c.model = ClosureModel::cut;
+  closed.motions.clear();
   return compile(closed);
 }
 

@@ -39,7 +39,8 @@ struct AssemblyReport {
   int branch = 0;
   std::vector<int> dependent;  // velocity indices
   std::string worst_closure;   // largest residual, if not closed
-  double worst_gap = 0.0;      // of it, m
+  std::string worst_coupling;  // the same where it is one
+  double worst_gap = 0.0;      // of it, m; of a coupling rad or m
   double worst_tilt = 0.0;     // of its axes, rad
   // Closures whose axis is opposite at the returned start, and those turned by half a turn.
   std::vector<std::string> flipped, turned;
@@ -55,7 +56,8 @@ inline constexpr double kRankTolerance = 1e-7;
 // Velocity indices of the joints that are not held.
 std::vector<int> free_velocities(const Model& model);
 
-// The same linkage with every closure cut, so that its closure equations can be evaluated.
+// The same linkage with every closure cut, so that its closure equations can be evaluated, and with
+// the freedoms that motions prescribe.
 Model compile_closed(const Linkage& linkage);
 
 // What is open, in words, and what may be wrong: "closure.C stays open: gap 0.003 m, ..."

@@ -21,8 +21,12 @@ Eigen::MatrixXd row_jacobian(const Mechanism& m, const Parameters<double>& p,
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   Rows j = Rows::Zero(static_cast<Eigen::Index>(rows.size()), m.nv);
   for (std::size_t r = 0; r < rows.size(); ++r) {
-    add_row_rates(m, p, w, rows[r].closure, rows[r], states[r],
-                  j.row(static_cast<Eigen::Index>(r)).data());
+    double* row = j.row(static_cast<Eigen::Index>(r)).data();
+    if (is_of_coupling(rows[r].kind)) {
+      add_coupling_rates(m, p, rows[r].closure, row);
+    } else {
+      add_row_rates(m, p, w, rows[r].closure, rows[r], states[r], row);
+    }
   }
   return j;
 }

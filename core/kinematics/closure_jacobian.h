@@ -63,6 +63,16 @@ inline void add_point_rates(const Mechanism& m, const Parameters<Real>& p, const
   }
 }
 
+// Row of J of a coupling.
+template <class Real>
+inline void add_coupling_rates(const Mechanism& m, const Parameters<Real>& p, int coupling,
+                               Real* j) {
+  for (const int n : terms_of(at(m.couplings, coupling))) {
+    Real& rate = j[at(m.coupling_terms, n).v];
+    rate = rate + at(p.coupling_factors, n);
+  }
+}
+
 // Angular velocity and velocity of a point (6) by a velocity of its path, ground axes.
 Eigen::Matrix<double, 6, 1> twist_of(const Mechanism& m, const Parameters<double>& p,
                                      const Workspace<double>& w, int k,

@@ -150,6 +150,9 @@ inline void update_row(const Row& r, const ClosureState<Real>& x, const Mat3<Rea
       return update_rotation_row(r, x, b1, b2, row);
     case RowKind::rotation_vector:
       return update_rotation_vector_row(r, x, b1, b2, row);
+    case RowKind::coupling_turn:
+    case RowKind::coupling_shift:
+      return;  // core/kinematics/forward_kinematics.h
   }
 }
 

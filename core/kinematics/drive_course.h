@@ -12,18 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "core/base/words.h"
+#include "core/topology/linkage.h"
 
 namespace linkstudy {
-
-enum class MotionLaw { linear, smooth, polynomial_345, table };
-
-template <>
-inline constexpr auto kWords<MotionLaw> = make_words<MotionLaw>(
-    {{MotionLaw::linear, "linear", "s"},
-     {MotionLaw::smooth, "smooth", "3 s^2 - 2 s^3"},
-     {MotionLaw::polynomial_345, "polynomial_345", "10 s^3 - 15 s^4 + 6 s^5"},
-     {MotionLaw::table, "table", "cubic spline through `positions` at `times`"}});
 
 struct DriveCourse {
   std::string joint;
@@ -34,6 +25,10 @@ struct DriveCourse {
   MotionLaw law = MotionLaw::linear;
   std::vector<double> times;      // table: rising, the first is 0
   std::vector<double> positions;  // table: as many
+  // A motion of the model, which has a time of its own; `from` is where the linkage stands.
+  std::optional<Motion> motion;
+
+  bool has_own_time() const { return motion || law == MotionLaw::table; }
 
   bool operator==(const DriveCourse&) const = default;
 };

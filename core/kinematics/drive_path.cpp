@@ -10,63 +10,23 @@ namespace {
 
 using Eigen::VectorXd;
 
-// A law, with its derivatives by s.
-struct Law {
-  double value, first, second;
-};
-
-Law evaluate(MotionLaw law, double s) {
-  switch (law) {
-    case MotionLaw::smooth:
-      return {s * s * (3.0 - 2.0 * s), 6.0 * s * (1.0 - s), 6.0 - 12.0 * s};
-    case MotionLaw::polynomial_345:
-      return {s * s * s * (10.0 + s * (-15.0 + 6.0 * s)), 30.0 * s * s * (1.0 - s) * (1.0 - s),
-              60.0 * s * (1.0 - s) * (1.0 - 2.0 * s)};
-    default:
-      return {s, 1.0, 0.0};
-  }
+MotionNumbers law_of(const DriveCourse& course, double duration) {
+  if (course.motion) return motion_numbers(*course.motion, *course.from);
+  Motion motion;
+  motion.law = course.law;
+  motion.from = course.from;
+  motion.to = course.to.value_or(0.0);
+  motion.duration = duration;
+  motion.times = course.times;
+  motion.positions = course.positions;
+  return motion_numbers(motion, 0.0);
 }
 
 }  // namespace
 
-// Natural cubic spline: second derivatives m at the points, zero at both ends, from
-//   h_i m_i + 2 (h_i + h_i+1) m_i+1 + h_i+1 m_i+2 = 6 (slope_i+1 - slope_i)
-struct DrivePath::Spline {
-  explicit Spline(const DriveCourse& course) : t(course.times), p(course.positions), m(t.size()) {
-    // Forward elimination of the tridiagonal system, then backward.
-    const std::size_t last = t.size() - 1;
-    std::vector<double> above(t.size());
-    for (std::size_t i = 1; i < last; ++i) {
-      const double pivot = 2.0 * (width(i - 1) + width(i)) - width(i - 1) * above[i - 1];
-      above[i] = width(i) / pivot;
-      m[i] = (6.0 * (slope(i) - slope(i - 1)) - width(i - 1) * m[i - 1]) / pivot;
-    }
-    for (std::size_t i = last; i-- > 1;) m[i] -= above[i] * m[i + 1];
-  }
-
-  double width(std::size_t i) const { return t[i + 1] - t[i]; }
-  double slope(std::size_t i) const { return (p[i + 1] - p[i]) / width(i); }
-
-  Law at(double time) const {
-    if (time < t.front()) return {p.front(), 0.0, 0.0};
-    if (time > t.back()) return {p.back(), 0.0, 0.0};
-    const auto above = std::upper_bound(t.begin() + 1, t.end() - 1, time);
-    const auto i = static_cast<std::size_t>(above - t.begin()) - 1;
-    const double h = width(i), x = time - t[i], jerk = (m[i + 1] - m[i]) / h;
-    const double first = slope(i) - h * (2.0 * m[i] + m[i + 1]) / 6.0;
-    return {p[i] + x * (first + x * (0.5 * m[i] + x * jerk / 6.0)),
-            first + x * (m[i] + 0.5 * x * jerk), m[i] + x * jerk};
-  }
-
-  std::vector<double> t, p, m;
-};
-
 DrivePath::DrivePath(std::vector<DriveCourse> courses, double duration)
     : courses_(std::move(courses)), duration_(duration) {
-  for (const DriveCourse& course : courses_) {
-    splines_.push_back(course.law == MotionLaw::table ? std::make_shared<const Spline>(course)
-                                                      : nullptr);
-  }
+  for (const DriveCourse& course : courses_) laws_.push_back(law_of(course, duration_));
 }
 
 DrivePath DrivePath::straight(const VectorXd& from, const VectorXd& to) {
@@ -80,12 +40,18 @@ DrivePath DrivePath::straight(const VectorXd& from, const VectorXd& to) {
 
 double DrivePath::longest_step() const {
   double longest = std::numeric_limits<double>::infinity();
-  for (const DriveCourse& course : courses_) {
-    if (course.law == MotionLaw::linear) continue;
+  for (std::size_t k = 0; k < laws_.size(); ++k) {
+    const MotionNumbers& law = laws_[k];
+    const bool is_straight = law.law == MotionLaw::speed && !law.rises;
+    if (is_straight || law.law == MotionLaw::linear) continue;
     longest = std::min(longest, duration_ / 64.0);
-    for (std::size_t i = 1; i < course.times.size(); ++i) {
-      longest = std::min(longest, (course.times[i] - course.times[i - 1]) / 8.0);
+    for (std::size_t i = 1; i < law.knots.size(); ++i) {
+      longest = std::min(longest, (law.knots[i].begin - law.knots[i - 1].begin) / 8.0);
     }
+    // Of a sine every swing counts, of a rise or a way its own time.
+    const double rate = law.parameters.rate;
+    const bool has_rate = courses_[k].motion && law.law != MotionLaw::table;
+    if (has_rate) longest = std::min(longest, (law.law == MotionLaw::sine ? 0.1 : 1.0 / 64) / rate);
   }
   return longest;
 }
@@ -95,22 +61,14 @@ DriveMotion DrivePath::at(double t) const {
   DriveMotion motion{VectorXd(n), VectorXd(n), VectorXd(n)};
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    const DriveCourse& course = courses_[k];
-    Law law;
-    if (splines_[k]) {
-      law = splines_[k]->at(t);
-    } else {
-      const bool goes_on = course.law == MotionLaw::linear;
-      const double s = goes_on ? t / duration_ : std::clamp(t / duration_, 0.0, 1.0);
-      const double reach = *course.to - *course.from;
-      const Law unit = evaluate(course.law, s);
-      const bool rests = !goes_on && (t < 0.0 || t > duration_);
-      law = {*course.from + reach * unit.value, rests ? 0.0 : reach * unit.first / duration_,
-             rests ? 0.0 : reach * unit.second / (duration_ * duration_)};
-    }
-    motion.position[i] = law.value;
-    motion.rate[i] = law.first;
-    motion.second_rate[i] = law.second;
+    const MotionNumbers& law = laws_[k];
+    const bool goes_on = courses_[k].motion || law.law == MotionLaw::linear;
+    const double end = law.knots.empty() ? duration_ : law.knots.back().begin;
+    const bool rests = !goes_on && (t < 0.0 || t > end);
+    const CoordinateMotion<double> x = law.at(rests ? std::clamp(t, 0.0, end) : t);
+    motion.position[i] = x.q;
+    motion.rate[i] = rests ? 0.0 : x.v;
+    motion.second_rate[i] = rests ? 0.0 : x.a;
   }
   return motion;
 }

@@ -1,13 +1,13 @@
 // Positions of driven coordinates over the time of a course, with both derivatives: the laws of
-// drive_course.h, the spline of a table. A linear course goes on beyond both of its ends, every
-// other one rests there.
+// drive_course.h, the spline of a table, motions of the model. A linear course goes on beyond both
+// of its ends, every other one of [kinematics] rests there.
 #pragma once
 
 #include <Eigen/Core>
-#include <memory>
 #include <vector>
 
 #include "core/kinematics/drive_course.h"
+#include "core/topology/motion_numbers.h"
 
 namespace linkstudy {
 
@@ -35,10 +35,9 @@ class DrivePath {
   DriveMotion at(double t) const;
 
  private:
-  struct Spline;
   std::vector<DriveCourse> courses_;
   double duration_;
-  std::vector<std::shared_ptr<const Spline>> splines_;  // null where the law is no table
+  std::vector<MotionNumbers> laws_;
 };
 
 }  // namespace linkstudy

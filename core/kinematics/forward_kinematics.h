@@ -1,4 +1,5 @@
-// Poses, velocities, qdd-free accelerations, axes and inertias of all bodies, ground to tips.
+// Poses, velocities, qdd-free accelerations, axes and inertias of all bodies, ground to tips, and
+// the rows of couplings.
 // X_WB = X_WP X_PJ X_J(q); gravity enters as an acceleration -g of the ground.
 #pragma once
 
@@ -107,6 +108,26 @@ inline void set_ground(const Parameters<Real>& p, BodyState<Real>& ground) {
   ground.a = Real(-1.0) * p.gravity;
 }
 
+// Rows of couplings; accelerations that are known are part of the bias.
+template <class Real>
+inline void update_coupling_rows(const Mechanism& m, const Parameters<Real>& p, const Real* q,
+                                 const Real* v, Workspace<Real>& w) {
+  for (const int i : indices_of(m.couplings)) {
+    const CouplingStructure& c = at(m.couplings, i);
+    RowState<Real>& row = at(w.cut_rows, c.row);
+    row.d = Real(0.0) - at(p.coupling_offsets, i);
+    row.rate = row.bias = Real(0.0);
+    for (const int n : terms_of(c)) {
+      const CouplingTermStructure& term = at(m.coupling_terms, n);
+      const Real& factor = at(p.coupling_factors, n);
+      row.d = madd(factor, q[term.q], row.d);
+      row.rate = madd(factor, v[term.v], row.rate);
+      const int motion = at(m.velocities, term.v).motion;
+      if (motion >= 0) row.bias = madd(factor, at(w.motions, motion).a, row.bias);
+    }
+  }
+}
+
 template <class Real>
 inline void update_kinematics(const Mechanism& m, const Parameters<Real>& p, const Real* q,
                               const Real* v, Workspace<Real>& w) {
@@ -121,12 +142,18 @@ inline void update_kinematics(const Mechanism& m, const Parameters<Real>& p, con
     for (const int i : stages_of(body)) {
       const Stage& stage = at(m.stages, i);
       pass_stage(stage, at(p.pitch, i), q + stage.q, v + stage.v, x, &at(w.axes, stage.v));
+      const Velocity& velocity = at(m.velocities, stage.v);
+      if (velocity.motion >= 0) {
+        accelerate(velocity.kind, at(p.pitch, i), at(w.motions, velocity.motion).a,
+                   at(w.axes, stage.v), x);
+      }
     }
     if (body.shifted) s.shift = s.p - parent.p;
     s.inertia.m = n.mass;
     s.inertia.h = rotate(s.r, n.moment, body.center);
     if (body.rotates) s.inertia.i = world_inertia(body.inertia, n.inertia, s.r);
   }
+  update_coupling_rows(m, p, q, v, w);
 }
 
 }  // namespace linkstudy

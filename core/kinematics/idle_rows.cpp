@@ -63,7 +63,8 @@ std::vector<unsigned> find_idle_directions(const Linkage& linkage) {
   }
   for (std::size_t r = 0; r < always.size(); ++r) {
     const Row& row = m.cut_rows[r];
-    if (always[r]) idle[static_cast<std::size_t>(row.closure)] |= 1u << row.direction;
+    if (always[r] && !is_of_coupling(row.kind))
+      idle[static_cast<std::size_t>(row.closure)] |= 1u << row.direction;
   }
   return idle;
 }

@@ -4,7 +4,8 @@
 //   rotation about e     omega += e v,  alpha += omega x e v          (omega before the stage)
 //   translation along e  p += e q,  v_p += omega x e q + e v,
 //                        a_p += alpha x e q + omega x (omega x e q) + 2 omega x e v
-// with the derivatives for qdd = 0. A ball turns about the axes of the frame after it with
+// with the derivatives for qdd = 0, but for coordinates whose motion is prescribed, of which
+// alpha += e a, a_p += e a. A ball turns about the axes of the frame after it with
 // omega += R w, alpha += omega_before x R w. Every rotation axis passes through the origin after
 // the joint, so that a unit rotation of it is (e, 0) about that origin.
 // Basic motions Z1 .. Z6: [Palcak].
@@ -116,6 +117,19 @@ inline void pass_stage(const Stage& stage, Real pitch, const Real* q, const Real
       spin(x, madd(v[0], x.s.r.x, madd(v[1], x.s.r.y, v[2] * x.s.r.z)));
       return;
   }
+}
+
+// Adds the acceleration of a stage just passed whose motion is prescribed.
+template <class Real>
+inline void accelerate(VelocityKind kind, Real pitch, Real qdd, const Vec3<Real>& axis,
+                       Moving<Real>& x) {
+  const Vec3<Real> added = qdd * axis;
+  if (kind != VelocityKind::rotation) {
+    x.s.a = x.s.a + (kind == VelocityKind::screw ? pitch * added : added);
+  }
+  if (kind == VelocityKind::translation) return;
+  x.s.alpha = x.gyrates ? x.s.alpha + added : added;
+  x.gyrates = true;
 }
 
 // Rates of the positions of a stage. Ball: h_dot = 1/2 h o (0, w), w in the child's joint axes.

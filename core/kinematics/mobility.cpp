@@ -75,7 +75,7 @@ void count_parts(const Model& closed, MobilityReport& r) {
   r.joints = r.links - 1 + r.loops;
   r.velocities = m.nv;
   r.rows = m.cut_row_count();
-  r.coordinates = m.nv + 6 * r.loops - r.rows;
+  r.coordinates = m.nv + 6 * r.loops - (r.rows - static_cast<int>(m.couplings.size()));
   r.kutzbach = m.nv - r.rows;
 }
 

@@ -22,6 +22,7 @@ MatrixXd twist_columns(const Model& closed, const ClosureScale& scale, const Wor
   MatrixXd t = MatrixXd::Zero(m.cut_row_count(), 6);
   for (int r = 0; r < m.cut_row_count(); ++r) {
     const Row& row = m.cut_rows[static_cast<std::size_t>(r)];
+    if (is_of_coupling(row.kind)) continue;  // a loose joint would have coordinates of its own
     const RowState<double>& state = w.cut_rows[static_cast<std::size_t>(r)];
     const ClosureStructure& c = m.closures[static_cast<std::size_t>(row.closure)];
     const ClosureState<double>& x = w.closures[static_cast<std::size_t>(row.closure)];
@@ -46,10 +47,10 @@ int count_in_tree_joint(const MatrixXd& j, const MatrixXd& twists) {
   return rank_of(wide) - rank_of(j);
 }
 
-int count_in_closure(const MatrixXd& j, const ClosureStructure& c) {
-  const int rows = c.row_end - c.row_begin;
+int count_in_rows(const MatrixXd& j, int begin, int end) {
+  const int rows = end - begin;
   MatrixXd rest(j.rows() - rows, j.cols());
-  rest << j.topRows(c.row_begin), j.bottomRows(j.rows() - c.row_end);
+  rest << j.topRows(begin), j.bottomRows(j.rows() - end);
   return rows - (rank_of(j) - rank_of(rest));
 }
 
@@ -71,7 +72,12 @@ std::vector<CarriedRedundancy> find_redundant_joints(const Model& closed, const 
         count_in_tree_joint(j, twist_columns(closed, scale, w, b)));
   }
   for (std::size_t i = 0; i < m.closures.size(); ++i) {
-    add("closure." + m.closure_names[i], count_in_closure(j, m.closures[i]));
+    add("closure." + m.closure_names[i],
+        count_in_rows(j, m.closures[i].row_begin, m.closures[i].row_end));
+  }
+  for (std::size_t i = 0; i < m.couplings.size(); ++i) {
+    add("coupling." + m.coupling_names[i],
+        count_in_rows(j, m.couplings[i].row, m.couplings[i].row + 1));
   }
   return found;
 }

@@ -40,7 +40,7 @@ ClosureScale find_closure_scale(const Model& closed, const State<double>& s) {
   ClosureScale scale{find_extent(closed, w), VectorXd::Ones(m.cut_row_count()),
                      VectorXd::Ones(m.nv)};
   for (std::size_t r = 0; r < m.cut_rows.size(); ++r) {
-    const bool is_length = m.cut_rows[r].kind != RowKind::rotation;
+    const bool is_length = !measures_turn(m.cut_rows[r].kind);
     if (is_length) scale.row[static_cast<Eigen::Index>(r)] = 1.0 / scale.extent;
   }
   for (int k = 0; k < m.nv; ++k) {

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "core/model/closure_rows.h"
+#include "core/model/compile_motion.h"
 #include "core/model/shapes.h"
 
 namespace linkstudy {
@@ -116,6 +117,10 @@ class Compiler {
     for (const Joint* joint : tree_order(linkage_, body_of_)) add_body(*joint);
     for (const Closure& closure : linkage_.closures) add_closure(closure);
     for (const Load& load : linkage_.loads) add_load(load);
+    for (const Motion& motion : linkage_.motions) {
+      compile_motion(motion, body_on(motion.joint), model_);
+    }
+    for (const Coupling& coupling : linkage_.couplings) add_coupling(coupling);
     for (const ChosenPoint& point : linkage_.points) add_point(point);
     return std::move(model_);
   }
@@ -178,7 +183,8 @@ class Compiler {
       const int count = motion == BasicMotion::ball ? 3 : 1;
       const int stage = static_cast<int>(m.stages.size()) - 1;
       for (int k = 0; k < count; ++k) {
-        m.velocities.push_back({index, velocity_kind(motion), stage});
+        m.velocities.push_back(
+            {index, velocity_kind(motion), stage, find_motion_of(joint, m.nv + k - body.v_begin)});
       }
       m.nq += motion == BasicMotion::ball ? 4 : 1;
       m.nv += count;
@@ -191,6 +197,15 @@ class Compiler {
       if (joint.hold && (shuts_sdes_ || !joint.elastic)) model_.held.push_back(k);
     }
     add_start(joint, body);
+  }
+
+  // Number of the prescribed motion of a coordinate, or -1.
+  int find_motion_of(const Joint& joint, int coordinate) const {
+    const auto& motions = linkage_.motions;
+    const auto found = std::find_if(motions.begin(), motions.end(), [&](const Motion& motion) {
+      return motion.joint == joint.name && motion.coordinate == coordinate;
+    });
+    return found == motions.end() ? -1 : static_cast<int>(found - motions.begin());
   }
 
   void add_joint_springs(const Joint& joint, const Body& body) {
@@ -238,7 +253,9 @@ class Compiler {
     for (int i = body.stage_begin; i < body.stage_end; ++i) {
       const BasicMotion motion = m.stages[static_cast<std::size_t>(i)].motion;
       if (is_rotation(motion)) {
-        body.gyrates = body.gyrates || body.rotates;
+        const int v = m.stages[static_cast<std::size_t>(i)].v;
+        const bool is_driven = m.velocities[static_cast<std::size_t>(v)].motion >= 0;
+        body.gyrates = body.gyrates || body.rotates || is_driven;
         body.rotates = true;
       }
       body.shifted = body.shifted || (body.parent != 0 && is_translation(motion));
@@ -283,7 +300,7 @@ class Compiler {
     c.row_end = static_cast<int>(rows.size());
     c.last_1 = last_velocity(c.first);
     c.last_2 = last_velocity(c.second);
-    add_support(c);
+    add_support({c.last_1, c.last_2}, c);
     for (int r = c.row_begin; r < c.row_end; ++r) {
       const RowKind kind = rows[static_cast<std::size_t>(r)].kind;
       c.has_line = c.has_line || kind == RowKind::line_of_centres;
@@ -351,10 +368,12 @@ class Compiler {
     }
   }
 
-  void add_support(ClosureStructure& c) {
+  // `ends`: last velocities of the paths.
+  template <class Structure>
+  void add_support(const std::vector<int>& ends, Structure& c) {
     Mechanism& m = mechanism();
     std::vector<int> support;
-    for (int last : {c.last_1, c.last_2}) {
+    for (int last : ends) {
       for (int k = last; k >= 0; k = m.v_parent[static_cast<std::size_t>(k)]) support.push_back(k);
     }
     std::sort(support.begin(), support.end(), std::greater<>());
@@ -364,11 +383,36 @@ class Compiler {
     c.support_end = static_cast<int>(m.support.size());
   }
 
-  int velocity_of(const Load& load) const {
+  void add_coupling(const Coupling& coupling) {
+    Mechanism& m = mechanism();
+    CouplingStructure c{.row = m.cut_row_count(),
+                        .term_begin = static_cast<int>(m.coupling_terms.size())};
+    const int index = static_cast<int>(m.couplings.size());
+    std::vector<int> ends;
+    double sum = 0.0;
+    for (const CouplingTerm& term : coupling.terms) {
+      const Body& body = body_on(term.joint);
+      const int q = body.q_begin + term.coordinate, v = body.v_begin + term.coordinate;
+      m.coupling_terms.push_back({q, v});
+      parameters().coupling_factors.push_back(term.factor);
+      sum += term.factor * model_.start.q[static_cast<std::size_t>(q)];
+      ends.push_back(v);
+    }
+    c.term_end = static_cast<int>(m.coupling_terms.size());
+    add_support(ends, c);
+    const auto& first = m.velocities[static_cast<std::size_t>(ends.front())];
+    const bool shifts = first.kind == VelocityKind::translation;
+    m.cut_rows.push_back(
+        {shifts ? RowKind::coupling_shift : RowKind::coupling_turn, index, 0, 0, 1.0, 0});
+    parameters().coupling_offsets.push_back(coupling.offset.value_or(sum));
+    m.couplings.push_back(c);
+    m.coupling_names.push_back(coupling.name);
+  }
+
+  const Body& body_on(const std::string& joint) const {
     const auto& names = model_.mechanism.joint_names;
-    const auto at = std::find(names.begin() + 1, names.end(), load.joint);
-    const auto body = static_cast<std::size_t>(at - names.begin());
-    return model_.mechanism.bodies[body].v_begin + load.coordinate;
+    const auto at = std::find(names.begin() + 1, names.end(), joint);
+    return model_.mechanism.bodies[static_cast<std::size_t>(at - names.begin())];
   }
 
   void add_load(const Load& load) {
@@ -381,7 +425,9 @@ class Compiler {
     const bool rises = s.course == CourseShape::ramp || s.course == CourseShape::smooth;
     if (rises && load.course.duration > 0.0) p.rate = 1.0 / load.course.duration;
     if (rises && load.course.duration == 0.0) s.course = CourseShape::constant;
-    if (load.type == LoadType::drive || load.type == LoadType::resistance) s.v = velocity_of(load);
+    if (load.type == LoadType::drive || load.type == LoadType::resistance) {
+      s.v = body_on(load.joint).v_begin + load.coordinate;
+    }
     if (load.type == LoadType::resistance) {
       const bool linear = load.law.shape == ResistanceShape::linear;
       p.value = load.law.value / (load.law.at_speed * (linear ? 1.0 : load.law.at_speed));

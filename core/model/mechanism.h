@@ -33,7 +33,8 @@ enum class VelocityKind : std::uint8_t { translation, rotation, screw };
 struct Velocity {
   int body;
   VelocityKind kind;
-  int stage;  // for the pitch of a screw
+  int stage;        // for the pitch of a screw
+  int motion = -1;  // that prescribes it, in MechanismStructure::motions
   bool operator==(const Velocity&) const = default;
 };
 
@@ -75,6 +76,8 @@ struct Body {
 //   line_of_centres     d = |p2 - p1|
 //   rotation            d = sign * a . b, a an axis of {1,e}, b an axis of {2,e}
 //   rotation_vector     d = e . phi, e an axis of {1,e}, phi the rotation vector from it to {2,e}
+// or of a coupling of joint coordinates, without a closure and without a wrench:
+//   coupling_turn, _shift  d = sum of factor * coordinate - offset, rad or m
 enum class RowKind : std::uint8_t {
   translation_ground,
   translation_first,
@@ -82,17 +85,23 @@ enum class RowKind : std::uint8_t {
   spring_first,
   line_of_centres,
   rotation,
-  rotation_vector
+  rotation_vector,
+  coupling_turn,
+  coupling_shift
 };
 
 // d is an angle or a sine of one, the wrench a couple.
 constexpr bool measures_turn(RowKind kind) {
-  return kind == RowKind::rotation || kind == RowKind::rotation_vector;
+  return kind == RowKind::rotation || kind == RowKind::rotation_vector ||
+         kind == RowKind::coupling_turn;
+}
+constexpr bool is_of_coupling(RowKind kind) {
+  return kind == RowKind::coupling_turn || kind == RowKind::coupling_shift;
 }
 
 struct Row {
   RowKind kind;
-  int closure;
+  int closure;      // or the coupling
   int axis;         // e, or a
   int other = 0;    // b
   double sign = 1;  // of a rotation
@@ -169,7 +178,16 @@ struct LoadStructure {
   bool operator==(const LoadStructure&) const = default;
 };
 
-// What decides the step loop: cases that agree in it may share one.
+// A coordinate whose motion is prescribed.
+struct MotionStructure {
+  int q, v;
+  MotionLaw law;
+  bool rises = false;                      // a speed, after a time
+  int knot_begin = 0, knot_end = 0;        // of a table, in Parameters::knots
+  int support_begin = 0, support_end = 0;  // in MechanismStructure::motion_support
+  bool operator==(const MotionStructure&) const = default;
+};
+
 // Which rows a closure has: multipliers or springs. Clearances keep multipliers for the directions
 // that stay blocked.
 enum class RowStorage : std::uint8_t { cut, sde };
@@ -177,6 +195,19 @@ constexpr RowStorage storage_of(ClosureModel model) {
   return model == ClosureModel::sde ? RowStorage::sde : RowStorage::cut;
 }
 
+// A relation between coordinates: one row behind those of the closures.
+struct CouplingStructure {
+  int row = 0;                             // in MechanismStructure::cut_rows
+  int term_begin = 0, term_end = 0;        // in MechanismStructure::coupling_terms
+  int support_begin = 0, support_end = 0;  // in MechanismStructure::support
+  bool operator==(const CouplingStructure&) const = default;
+};
+struct CouplingTermStructure {
+  int q, v;
+  bool operator==(const CouplingTermStructure&) const = default;
+};
+
+// What decides the step loop: cases that agree in it may share one.
 struct MechanismStructure {
   int nq = 0;
   int nv = 0;
@@ -188,7 +219,9 @@ struct MechanismStructure {
   std::vector<ClosureStructure> closures;
   std::vector<Row> cut_rows;  // (nc) constraint rows, closure by closure, of clearances too
   std::vector<Row> sde_rows;  // (ns)
-  std::vector<int> support;   // by closure: velocities on both paths to ground, descending
+  // By closure and coupling: velocities on the paths of both ends, or of all terms, to ground,
+  // descending.
+  std::vector<int> support;
   std::vector<LoadStructure> loads;
   std::vector<JointSpring> joint_springs;
   std::vector<ClearanceStructure> clearances;
@@ -196,7 +229,12 @@ struct MechanismStructure {
   std::vector<JointFrictionStructure> frictions;
   int nz = 0;  // bristles
   int table_segments = 0;
-  bool projects = false;  // some cut closure asks for coordinate projection
+  std::vector<CouplingStructure> couplings;
+  std::vector<CouplingTermStructure> coupling_terms;
+  std::vector<MotionStructure> motions;
+  std::vector<int> motion_support;  // by motion: velocities that carry its body, or that it carries
+  int knots = 0;                    // of the tables of motions
+  bool projects = false;            // some cut closure asks for coordinate projection
   // How redundant reactions are shared (core/dynamics/shared_reactions.h); empty where they are
   // those of the multipliers.
   std::vector<LoopJoint> loop_joints;  // those that count first
@@ -216,10 +254,12 @@ struct Mechanism : MechanismStructure {
   std::vector<int> point_bodies;
 
   // Names, for channels and messages only.
-  std::vector<std::string> link_names;     // by body
-  std::vector<std::string> joint_names;    // by body; [0] empty
-  std::vector<std::string> closure_names;  // by closure
-  std::vector<std::string> point_names;    // by chosen point
+  std::vector<std::string> link_names;      // by body
+  std::vector<std::string> joint_names;     // by body; [0] empty
+  std::vector<std::string> closure_names;   // by closure
+  std::vector<std::string> motion_names;    // by motion
+  std::vector<std::string> coupling_names;  // by coupling
+  std::vector<std::string> point_names;     // by chosen point
 };
 
 // True if cases of a and b may share a step loop (names and chosen points aside).

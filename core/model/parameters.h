@@ -6,6 +6,7 @@
 
 #include "core/laws/lugre_friction.h"
 #include "core/laws/normal_contact.h"
+#include "core/laws/prescribed_motion.h"
 #include "core/spatial/vector3.h"
 
 namespace linkstudy {
@@ -84,7 +85,11 @@ struct Parameters {
   std::vector<ClearanceParameters<Real>> clearances;
   std::vector<JointFrictionParameters<Real>> frictions;
   std::vector<SegmentParameters<Real>> segments;
-  std::vector<Vec3<Real>> points;  // chosen points, internal frames, m
+  std::vector<MotionParameters<Real>> motions;
+  std::vector<KnotParameters<Real>> knots;  // of the tables of motions
+  std::vector<Real> coupling_offsets;       // by coupling, rad or m
+  std::vector<Real> coupling_factors;       // by term
+  std::vector<Vec3<Real>> points;           // chosen points, internal frames, m
 };
 
 }  // namespace linkstudy

@@ -43,13 +43,30 @@ namespace linkstudy {
   return indices(c.row_begin + (c.point_rows ? 3 : 0), c.row_end);
 }
 
-// Velocities of both paths of a closure, each once, last first.
+// Velocities of both paths of a closure, or of those of a coupling, each once, last first.
 [[gnu::always_inline]] inline std::span<const int> support_of(const Mechanism& m,
                                                               const ClosureStructure& c) {
   return {m.support.data() + c.support_begin, m.support.data() + c.support_end};
 }
+[[gnu::always_inline]] inline std::span<const int> support_of(const Mechanism& m,
+                                                              const CouplingStructure& c) {
+  return {m.support.data() + c.support_begin, m.support.data() + c.support_end};
+}
 [[gnu::always_inline]] inline std::span<const int> support_of_row(const Mechanism& m, int cut_row) {
-  return support_of(m, at(m.closures, at(m.cut_rows, cut_row).closure));
+  const Row& row = at(m.cut_rows, cut_row);
+  return is_of_coupling(row.kind) ? support_of(m, at(m.couplings, row.closure))
+                                  : support_of(m, at(m.closures, row.closure));
+}
+
+// Terms of a coupling.
+[[gnu::always_inline]] inline auto terms_of(const CouplingStructure& c) {
+  return indices(c.term_begin, c.term_end);
+}
+
+// Velocities whose accelerations go with that of a prescribed one.
+[[gnu::always_inline]] inline std::span<const int> support_of(const Mechanism& m,
+                                                              const MotionStructure& s) {
+  return {m.motion_support.data() + s.support_begin, m.motion_support.data() + s.support_end};
 }
 
 // Contacts of a clearance.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/indices.h"
+#include "core/laws/prescribed_motion.h"
 #include "core/model/mechanism.h"
 #include "core/numerics/null_space_fit.h"
 #include "core/numerics/redundant_system.h"
@@ -22,8 +23,8 @@ struct BodyState {
   Vec3<Real> shift;         // p less the parent's p
   Vec3<Real> omega;         // angular velocity
   Vec3<Real> v;             // velocity of the origin
-  Vec3<Real> alpha;         // angular acceleration for qdd = 0
-  Vec3<Real> a;             // acceleration of the origin for qdd = 0, less gravity
+  Vec3<Real> alpha;         // angular acceleration for qdd = 0, prescribed ones aside
+  Vec3<Real> a;             // acceleration of the origin then, less gravity
   Inertia<Real> inertia;    // of the body and, in `composite`, of all bodies outboard
   Inertia<Real> composite;  // of bodies that carry others; else `inertia` is meant
   Wrench<Real> wrench;      // that moves the body (then: and all outboard) with qdd = 0
@@ -123,7 +124,7 @@ struct Workspace {
   std::vector<Real> inverse_pivot;       // (nv) 1 / D
   std::vector<Real> tau;                 // (nv) generalised forces less bias
   std::vector<Real> y;                   // (nv) L^-T tau
-  std::vector<Real> qdd;                 // (nv)
+  std::vector<Real> qdd;                 // (nv); 0 where the motion is prescribed
   std::vector<Wrench<Real>> link_loads;  // (loads) about the body's origin
   std::vector<RowState<Real>> cut_rows;  // (nc)
   std::vector<RowState<Real>> sde_rows;  // (ns)
@@ -134,13 +135,17 @@ struct Workspace {
   std::vector<ContactState<Real>> contacts;
   std::vector<ContactMemory<Real>> memory;
   std::vector<JointFrictionState<Real>> frictions;
-  std::vector<Real> friction_tau;      // (nv) of joints with friction
-  std::vector<Real> friction_inverse;  // of d gap / d load, negative
-  std::vector<Real> z;                 // (nz) bristles: set before an evaluation
-  std::vector<Real> z_rate;            // (nz)
-  Reactions<Real> reactions;           // where joints have friction
-  Real supplied_power = Real(0.0);     // W
-  Real dissipated_power = Real(0.0);   // W
+  std::vector<Real> friction_tau;               // (nv) of joints with friction
+  std::vector<Real> friction_inverse;           // of d gap / d load, negative
+  std::vector<Real> z;                          // (nz) bristles: set before an evaluation
+  std::vector<Real> z_rate;                     // (nz)
+  Reactions<Real> reactions;                    // where joints have friction
+  std::vector<CoordinateMotion<Real>> motions;  // prescribed ones, at the time of the evaluation
+  std::vector<Real> motion_mass;      // of M: prescribed coordinates beside their motion_support
+  std::vector<Real> motion_rows;      // (motions, nc) their columns of J
+  std::vector<Real> efforts;          // (motions) that they take, N or N m
+  Real supplied_power = Real(0.0);    // W
+  Real dissipated_power = Real(0.0);  // W
   // Lanes, one bit each, whose cut rows depend on each other or nearly, so that `schur` holds no
   // factor of theirs; and the number of independent rows, in each lane its own.
   unsigned redundant = 0;
@@ -219,6 +224,10 @@ Workspace<Real> make_workspace(const Mechanism& m) {
   }
   w.cut_rows = make_rows<Real>(m.cut_rows);
   w.sde_rows = make_rows<Real>(m.sde_rows);
+  w.motions.resize(m.motions.size());
+  w.motion_mass.assign(m.motion_support.size(), Real(0.0));
+  w.motion_rows.assign(m.motions.size() * nc, Real(0.0));
+  w.efforts.assign(m.motions.size(), Real(0.0));
   w.cut_y.assign(nc * nv, Real(0.0));
   w.schur.assign(nc * nc, Real(0.0));
   w.cut_jacobian.assign(nc * nv, Real(0.0));

@@ -32,7 +32,7 @@ class RungeKutta {
 
   Real* first_slope() { return slopes_[0].data(); }
 
-  // f(t, y, dy) writes dy; first_slope() must hold f(t, y).
+  // f(t, y, dy) writes dy, and may set right what it knows of y; first_slope() must hold f(t, y).
   template <class F>
   void advance(Real t, Real h, Real* y, F&& f) {
     advance_stages(t, h, y, f, std::make_index_sequence<Tableau::stages - 1>());

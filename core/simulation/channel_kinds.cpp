@@ -61,6 +61,14 @@ constexpr std::array kKinds = {
     ChannelKind{Quantity::joint_friction, "joint", "friction", "[i]", "N m|N", kRubbing,
                 "friction, positive against the rate of the coordinate; of a cylindrical joint 0 "
                 "against its turn, 1 against its shift"},
+    ChannelKind{Quantity::motion_effort, "motion", "effort", "", "N m|N", "",
+                "what the prescribed motion takes: generalised force along the coordinate, of the "
+                "parent on the child; beside springs, friction and loads of the joint"},
+    ChannelKind{Quantity::motion_power, "motion", "power", "", "W", "",
+                "effort times the rate of the coordinate: what the drive puts into the linkage"},
+    ChannelKind{Quantity::coupling_effort, "coupling", "effort", "", "N m|N", "",
+                "times the factor of a term: the generalised force that the coupling puts on its "
+                "coordinate; the teeth of a gear pair press with effort / radius"},
     ChannelKind{Quantity::point_position, "point", "position", kVector, "m", "",
                 "position from the ground's origin, ground axes"},
     ChannelKind{Quantity::point_velocity, "point", "velocity", kVector, "m/s", "",
@@ -71,7 +79,7 @@ constexpr std::array kKinds = {
     ChannelKind{Quantity::potential, "energy", "potential", "", "J", "",
                 "energy of gravity, springs and replacement joints"},
     ChannelKind{Quantity::supplied, "energy", "supplied", "", "J", "",
-                "work of the driving loads since the start"},
+                "work of driving loads and prescribed motions since the start"},
     ChannelKind{Quantity::dissipated, "energy", "dissipated", "", "J", "",
                 "work taken by dampers, resistances, friction and contacts since the start"},
     ChannelKind{Quantity::residual, "energy", "residual", "", "J", "",

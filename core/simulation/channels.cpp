@@ -30,6 +30,8 @@ class Lister {
       add_vector(name, Quantity::closure_gap, closure);
       add_clearances_of(closure, name);
     }
+    for (std::size_t i = 0; i < m_.motions.size(); ++i) add_motion(i);
+    for (std::size_t i = 0; i < m_.couplings.size(); ++i) add_coupling(i);
     for (std::size_t i = 0; i < m_.point_bodies.size(); ++i) add_point(i);
     for (const ChannelKind& kind : channel_kinds()) {
       if (kind.owner == "energy") add("energy", kind.quantity, 0);
@@ -63,6 +65,20 @@ class Lister {
     for (int i = 0; i < size; ++i) {
       add(owner, quantity, index, {.suffix = axes[i], .component = i});
     }
+  }
+
+  void add_motion(std::size_t i) {
+    const std::string name = "motion." + m_.motion_names[i];
+    const int index = static_cast<int>(i);
+    const bool turns = is_rotation(m_, m_.motions[i].v);
+    add(name, Quantity::motion_effort, index, {.unit = turns ? "N m" : "N"});
+    add(name, Quantity::motion_power, index);
+  }
+
+  void add_coupling(std::size_t i) {
+    const RowKind kind = m_.cut_rows[static_cast<std::size_t>(m_.couplings[i].row)].kind;
+    add("coupling." + m_.coupling_names[i], Quantity::coupling_effort, static_cast<int>(i),
+        {.unit = kind == RowKind::coupling_turn ? "N m" : "N"});
   }
 
   void add_point(std::size_t i) {

@@ -41,7 +41,7 @@ class Instant {
       case Quantity::v:
         return y_[m_.nq + c.index];
       case Quantity::a:
-        return at(w_.qdd, c.index);
+        return acceleration(c.index);
       case Quantity::joint_force:
       case Quantity::joint_torque:
       case Quantity::joint_force_local:
@@ -70,6 +70,12 @@ class Instant {
       case Quantity::joint_friction:
         return c.component == 0 ? at(w_.frictions, c.index).on_turn
                                 : at(w_.frictions, c.index).on_slide;
+      case Quantity::motion_effort:
+        return at(w_.efforts, c.index);
+      case Quantity::coupling_effort:
+        return -at(w_.cut_rows, at(m_.couplings, c.index).row).value;
+      case Quantity::motion_power:
+        return at(w_.efforts, c.index) * at(w_.motions, c.index).v;
       case Quantity::point_position:
       case Quantity::point_velocity:
       case Quantity::point_acceleration:
@@ -92,6 +98,11 @@ class Instant {
   }
 
  private:
+  Real acceleration(int k) const {
+    const int motion = at(m_.velocities, k).motion;
+    return motion >= 0 ? at(w_.motions, motion).a : at(w_.qdd, k);
+  }
+
   ClosureWrench<Real> own_closure_wrench(int c) const {
     return compute_closure_wrench(at(m_.closures, c), at(w_.closures, c));
   }

@@ -37,6 +37,7 @@ class LocatedRun {
         size_(static_cast<std::size_t>(state_size(m))),
         y_(c.y, c.y + size_),
         at_(size_),
+        imposed_(m.motions.empty() ? 0 : size_),
         correction_(static_cast<std::size_t>(m.nv)),
         w_(make_workspace<double>(m)),
         look_w_(make_workspace<double>(m)),
@@ -76,7 +77,18 @@ class LocatedRun {
 
   [[gnu::flatten]] void evaluate_at(double t, const double* y) { evaluate_state(m_, p_, t, y, w_); }
 
+  void impose(double t, double* y) const { impose_motions(m_, p_, t, y, y + m_.nq); }
+
+  // The integrator's own state may be off the laws by what it allows.
+  const double* with_motions(double t, const double* y) {
+    if (imposed_.empty()) return y;
+    imposed_.assign(y, y + size_);
+    impose(t, imposed_.data());
+    return imposed_.data();
+  }
+
   void differentiate(double t, const double* y, double* slope) {
+    y = with_motions(t, y);
     evaluate_at(t, y);
     write_slopes(m_, y, w_, slope);
     if (++since_poll_ >= kStepsBetweenPolls) poll(t);
@@ -106,11 +118,12 @@ class LocatedRun {
 
   void look_inside(double t, Nearness* contacts) {
     integrator_->value_at(t, at_.data());
+    impose(t, at_.data());
     if (!m_.ball_q.empty()) normalize_quaternions(m_, at_.data());
     look_at(at_.data(), contacts);
   }
 
-  void settle(double* y) { settle_state(m_, p_, y, correction_.data(), w_); }
+  void settle(double t, double* y) { settle_state(m_, p_, t, y, correction_.data(), w_); }
 
   void begin() {
     look_at(y_.data(), begin_.data());
@@ -150,7 +163,7 @@ class LocatedRun {
 
   std::optional<ContactEvent> find_event() {
     if (phases_.empty()) return std::nullopt;
-    look_at(integrator_->y(), end_.data());
+    look_at(with_motions(integrator_->t(), integrator_->y()), end_.data());
     return events_.find(integrator_->t_old(), integrator_->t(), begin_, end_, phases_);
   }
 
@@ -160,7 +173,7 @@ class LocatedRun {
       ++step_;
       if (step_ % setting_.energy_stride != 0 && !hits(*case_.observers, step_)) continue;
       integrator_->value_at(time_of(step_), at_.data());
-      settle(at_.data());
+      settle(time_of(step_), at_.data());
       observe_grid(step_, at_.data());
     }
   }
@@ -197,8 +210,9 @@ class LocatedRun {
   void accept() {
     y_.assign(integrator_->y(), integrator_->y() + size_);
     time_ = integrator_->t();
+    impose(time_, y_.data());
     if (m_.projects || !m_.ball_q.empty()) {
-      settle(y_.data());
+      settle(time_, y_.data());
       integrator_->replace(y_.data());
       look_at(y_.data(), end_.data());
     }
@@ -219,7 +233,7 @@ class LocatedRun {
     const auto i = static_cast<std::size_t>(event.contact);
     integrator_->value_at(event.t, y_.data());
     time_ = event.t;
-    settle(y_.data());
+    settle(time_, y_.data());
     look_at(y_.data(), begin_.data());
     for (ContactPhase& phase : phases_) phase.fresh &= event.t == integrator_->t_old();
     phases_[i] = {!phases_[i].touching, true};
@@ -287,9 +301,10 @@ class LocatedRun {
   const LaneCase case_;
   const Parameters<double>& p_;
   std::size_t size_;
-  std::vector<double> y_;   // accepted
-  double time_ = 0.0;       // of y_
-  std::vector<double> at_;  // the same inside a step
+  std::vector<double> y_;        // accepted
+  double time_ = 0.0;            // of y_
+  std::vector<double> at_;       // the same inside a step
+  std::vector<double> imposed_;  // a state with driven coordinates as their laws have them
   std::vector<double> correction_;
   Workspace<double> w_, look_w_;
   Instant<double> now_;

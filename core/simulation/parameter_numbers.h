@@ -20,6 +20,10 @@ inline void for_parameter_lists(F&& f, P&... p) {
   f(p.clearances...);
   f(p.frictions...);
   f(p.segments...);
+  f(p.motions...);
+  f(p.knots...);
+  f(p.coupling_offsets...);
+  f(p.coupling_factors...);
   f(p.points...);
 }
 

@@ -14,8 +14,10 @@
 #include "core/kinematics/three_turns.h"
 #include "core/model/loop_joints.h"
 #include "core/numerics/rank.h"
+#include "core/simulation/motion_start.h"
 #include "core/simulation/simulate.h"
 #include "core/spatial/rotation_vector.h"
+#include "core/topology/resting_motions.h"
 
 namespace linkstudy {
 namespace {
@@ -107,7 +109,7 @@ std::string joint_of(const Mechanism& m, int velocity) {
   return m.joint_names[static_cast<std::size_t>(body)];
 }
 
-// Joints with hold = true, "A, B".
+// Joints with hold = true, and those of prescribed motions, "A, B".
 std::string held_joints(const Model& model) {
   std::vector<std::string> names;
   for (const int k : model.held) {
@@ -122,7 +124,7 @@ std::string held_joints(const Model& model) {
 bool accept_velocities(const AssemblyReport& a, Preparation& p) {
   if (a.velocity_residual <= kVelocityTolerance) return true;
   fail(p, Cause::assembly_failed,
-       "the velocities of the held joints (" + held_joints(p.model) +
+       "the velocities of the held or driven joints (" + held_joints(p.model) +
            ") do not fit the closures: residual " + number(a.velocity_residual) +
            "; let one of them go, or give them velocities that belong together");
   return false;
@@ -131,7 +133,7 @@ bool accept_velocities(const AssemblyReport& a, Preparation& p) {
 std::string held_advice(const Model& model) {
   const std::string held = held_joints(model);
   if (held.empty()) return {};
-  return "; held where they are: " + held + " (hold = true)";
+  return "; held where they are: " + held + " (hold = true, or a motion)";
 }
 
 // The pose that was found, to be written into the model. All digits: a start that is closed is
@@ -211,6 +213,12 @@ bool assemble(const Linkage& linkage, const std::vector<unsigned>& idle, const M
     return false;
   }
   if (!loose && !accept_velocities(a, p)) return false;
+  const std::string overdriven = overdriven_text(p.model);
+  if (!overdriven.empty()) {
+    fail(p, Cause::assembly_failed, overdriven);
+    return false;
+  }
+  for (std::string& text : motion_warnings(linkage, p.model)) p.warnings.push_back(std::move(text));
   warn_of_changed_velocities(linkage, given, p);
   if (!loose && a.restarts > 0) {
     p.warnings.push_back("the given start did not lead to a closed pose; used restart " +
@@ -240,7 +248,8 @@ Linkage with_deflected_sdes(Linkage linkage) {
 void warn_of_holding(const Model& at_rest, const StaticsReport& statics, Preparation& p) {
   const double slight = kSlightEffort * force_scale(at_rest, statics.time);
   for (const int k : at_rest.held) {
-    const double effort = statics.holding[k];
+    const bool is_driven = at_rest.mechanism.velocities[static_cast<std::size_t>(k)].motion >= 0;
+    const double effort = is_driven ? 0.0 : statics.holding[k];
     if (std::abs(effort) <= slight) continue;
     p.warnings.push_back("the equilibrium holds " + velocity_name(at_rest.mechanism, k) + " with " +
                          number(effort) + " " + effort_unit(at_rest.mechanism, k) +
@@ -249,7 +258,7 @@ void warn_of_holding(const Model& at_rest, const StaticsReport& statics, Prepara
 }
 
 bool find_equilibrium(const Linkage& linkage, double time, Preparation& p) {
-  const Linkage ideal = with_ideal_bearings(linkage);
+  const Linkage ideal = with_resting_motions(with_ideal_bearings(linkage));
   const Model at_rest = compile(ideal, find_idle_directions(ideal));
   State<double> s = at_rest.start;  // with bristles of its own
   s.t = time;

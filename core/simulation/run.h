@@ -70,8 +70,8 @@ class Run {
         update_contact_memory(m_, w_, contact_steps_.data(), bristles(), contact_log_);
       }
       rk_.advance(Real(t), Real(setting_.h), y_.data(),
-                  [this](Real s, const Real* y, Real* slope) { differentiate(s, y, slope); });
-      finish_step();
+                  [this](Real s, Real* y, Real* slope) { differentiate(s, y, slope); });
+      finish_step(Real(t) + Real(setting_.h));
       if (active_ != kAllLanes<Real>) reset_idle_lanes();
     }
     end_lanes(active_, Cause::ok);
@@ -90,11 +90,14 @@ class Run {
     evaluate_into(w_, Real(t), y_.data(), rk_.first_slope());
   }
 
-  [[gnu::noinline, gnu::flatten]] void differentiate(Real t, const Real* q, Real* slope) {
-    evaluate_into(w_, t, q, slope);
+  [[gnu::noinline, gnu::flatten]] void differentiate(Real t, Real* y, Real* slope) {
+    impose_motions(m_, p_, t, y, y + m_.nq);
+    evaluate_into(w_, t, y, slope);
   }
 
-  [[gnu::flatten]] void finish_step() { settle_state(m_, p_, y_.data(), correction_.data(), w_); }
+  [[gnu::flatten]] void finish_step(Real t) {
+    settle_state(m_, p_, t, y_.data(), correction_.data(), w_);
+  }
 
   // Nothing happens in a step but the step itself, as far as can be said beforehand.
   bool is_quiet() const {

@@ -1,6 +1,7 @@
 // The state of a run as one row of numbers,
 //   y = q (nq), v (nv), z (nz), supplied, dissipated
-// with its slopes, and its return to unit quaternions and closed joints after a step. This is what
+// with its slopes, and its return to unit quaternions, closed joints and the laws of driven
+// coordinates after a step. This is what
 // runs of constant steps (run.h) and of adaptive ones (located_run.h) share of the motion.
 #pragma once
 
@@ -34,18 +35,20 @@ inline void write_slopes(const Mechanism& m, const Real* y, const Workspace<Real
   }
   Real* rest = slope + m.nq;
   for (const int k : velocities(m)) rest[k] = at(w.qdd, k);
+  for (const int i : indices_of(m.motions)) rest[at(m.motions, i).v] = at(w.motions, i).a;
   for (const int i : indices(m.nz)) rest[m.nv + i] = at(w.z_rate, i);
   rest[m.nv + m.nz] = w.supplied_power;
   rest[m.nv + m.nz + 1] = w.dissipated_power;
 }
 
-// Leaves in w what the projection has found; correction (nv) is scratch.
+// The state at t. Leaves in w what the projection has found; correction (nv) is scratch.
 template <class Real>
-inline void settle_state(const Mechanism& m, const Parameters<Real>& p, Real* y, Real* correction,
-                         Workspace<Real>& w) {
+inline void settle_state(const Mechanism& m, const Parameters<Real>& p, Real t, Real* y,
+                         Real* correction, Workspace<Real>& w) {
+  impose_motions(m, p, t, y, y + m.nq);
   if (!m.ball_q.empty()) normalize_quaternions(m, y);
   if (!m.projects) return;
-  update_factored_mass_matrix(m, p, Real(0.0), y, y + m.nq, w);
+  update_factored_mass_matrix(m, p, t, y, y + m.nq, w);
   project(m, p, y, y + m.nq, correction, w);
 }
 

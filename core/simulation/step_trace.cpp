@@ -37,9 +37,11 @@ class StepTracer {
         w_, [&](const Traced* x, std::size_t n) { kept.insert(kept.end(), x, x + n); });
     const std::vector<Traced> samples = sample(t, observed);
     update_contact_memory(m_, w_, contact_steps_.data(), y_.data() + m_.nq + m_.nv, log_);
-    rk_.advance(t, h, y_.data(),
-                [this](Traced s, const Traced* y, Traced* slope) { differentiate(s, y, slope); });
-    settle_state(m_, p_, y_.data(), correction_.data(), w_);
+    rk_.advance(t, h, y_.data(), [this](Traced s, Traced* y, Traced* slope) {
+      impose_motions(m_, p_, s, y, y + m_.nq);
+      differentiate(s, y, slope);
+    });
+    settle_state(m_, p_, t + h, y_.data(), correction_.data(), w_);
     slots.next = slot_;
     write_state();
     slots.fine = slot_;

@@ -1,10 +1,13 @@
 #include "core/topology/check_linkage.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "core/topology/check_motion.h"
 #include "core/topology/check_values.h"
 #include "core/topology/flexible_beam.h"
 #include "core/topology/nearest_name.h"
+#include "core/topology/record_check.h"
 
 namespace linkstudy {
 namespace {
@@ -26,6 +29,8 @@ class Checker {
     check_names("joint", linkage_.joints);
     check_names("closure", linkage_.closures);
     check_names("load", linkage_.loads);
+    check_names("motion", linkage_.motions);
+    check_names("coupling", linkage_.couplings);
     check_names("point", linkage_.points);
     check_link_values();
     check_element_names();
@@ -33,6 +38,8 @@ class Checker {
     check_tree();
     check_closures();
     check_loads();
+    check_motions();
+    check_couplings();
     check_points();
     return std::move(problems_);
   }
@@ -252,7 +259,8 @@ class Checker {
       check_load(load, path, problems_);
       const bool on_joint = load.type == LoadType::drive || load.type == LoadType::resistance;
       if (on_joint) {
-        check_load_on_joint(load, path);
+        check_coordinate(load.joint, load.coordinate, path, "load " + quoted(load.name),
+                         "carry a load");
       } else if (load.link == kGround || !is_link(load.link)) {
         std::vector<std::string> names = body_names();
         names.erase(names.begin());
@@ -263,23 +271,93 @@ class Checker {
     }
   }
 
-  void check_load_on_joint(const Load& load, const std::string& path) {
-    const std::string who = "load " + quoted(load.name);
-    const Joint* joint = find_joint(load.joint);
+  // The joint, or nothing where it or its coordinate does not exist.
+  const Joint* check_coordinate(const std::string& name, int coordinate, const std::string& path,
+                                const std::string& who, const std::string& purpose) {
+    const Joint* joint = find_joint(name);
     if (joint == nullptr) {
       std::vector<std::string> names;
       for (const Joint& known : linkage_.joints) names.push_back(known.name);
-      report(path + ".joint", who + ": joint does not exist, got '" + load.joint + "'",
-             suggest_name(load.joint, names));
-      return;
+      report(path + ".joint", who + ": joint does not exist, got '" + name + "'",
+             suggest_name(name, names));
+      return nullptr;
     }
     const int count = velocity_count(joint->type);
-    if (load.coordinate >= 0 && load.coordinate < count) return;
+    if (coordinate >= 0 && coordinate < count) return joint;
     report(path + ".coordinate",
            who + ": joint '" + joint->name + "' has " + std::to_string(count) +
-               " coordinates, counted from 0, got " + std::to_string(load.coordinate),
-           count == 0 ? "a fixed joint cannot carry a load; choose another joint"
+               " coordinates, counted from 0, got " + std::to_string(coordinate),
+           count == 0 ? "a fixed joint cannot " + purpose + "; choose another joint"
                       : "choose a coordinate from 0 to " + std::to_string(count - 1));
+    return nullptr;
+  }
+
+  void check_angles(const Joint& joint, int coordinate, const std::string& path,
+                    const std::string& who) {
+    const int nv = velocity_count(joint.type);
+    const bool has_quaternion = position_count(joint.type, joint.coordinates) != nv;
+    if (!has_quaternion || coordinate < nv - 3) return;
+    report(path + ".coordinate",
+           who + ": coordinate " + std::to_string(coordinate) + " of joint " + quoted(joint.name) +
+               " is of a quaternion, which has no law of its own",
+           "use coordinates = \"zyx\" of the joint");
+  }
+
+  void check_couplings() {
+    for (std::size_t i = 0; i < linkage_.couplings.size(); ++i) {
+      const Coupling& coupling = linkage_.couplings[i];
+      const std::string path = path_of("coupling", linkage_.couplings, i);
+      const std::string who = "coupling " + quoted(coupling.name);
+      RecordCheck record{path, who, problems_};
+      if (coupling.offset) record.require_finite("offset", std::isfinite(*coupling.offset));
+      if (coupling.terms.size() < 2) {
+        report(path + ".terms",
+               who + ": terms must be two or more, got " + std::to_string(coupling.terms.size()),
+               "a single coordinate that stays is a motion with speed = 0.0");
+      }
+      for (std::size_t k = 0; k < coupling.terms.size(); ++k) {
+        check_term(coupling, k, path + ".terms." + std::to_string(k), who);
+      }
+    }
+  }
+
+  void check_term(const Coupling& coupling, std::size_t k, const std::string& path,
+                  const std::string& who) {
+    const CouplingTerm& term = coupling.terms[k];
+    if (!std::isfinite(term.factor) || term.factor == 0.0) {
+      report(path + ".factor",
+             who + ": factor must be finite and not zero, got " + text_of(term.factor),
+             "leave the term out");
+    }
+    const Joint* joint = check_coordinate(term.joint, term.coordinate, path, who, "be coupled");
+    if (joint == nullptr) return;
+    check_angles(*joint, term.coordinate, path, who);
+    const auto end = coupling.terms.begin() + static_cast<std::ptrdiff_t>(k);
+    const bool again = std::any_of(coupling.terms.begin(), end, [&](const CouplingTerm& other) {
+      return other.joint == term.joint && other.coordinate == term.coordinate;
+    });
+    if (!again) return;
+    report(path + ".joint", who + ": the coordinate is in the terms twice",
+           "give it one term with the sum of the factors");
+  }
+
+  void check_motions() {
+    const std::vector<Motion>& all = linkage_.motions;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const Motion& motion = all[i];
+      const std::string path = path_of("motion", all, i);
+      const std::string who = "motion " + quoted(motion.name);
+      check_motion(motion, path, problems_);
+      const Joint* joint = check_coordinate(motion.joint, motion.coordinate, path, who, "be moved");
+      if (joint == nullptr) continue;
+      check_angles(*joint, motion.coordinate, path, who);
+      const auto same = std::find_if(all.begin(), all.end(), [&](const Motion& other) {
+        return other.joint == motion.joint && other.coordinate == motion.coordinate;
+      });
+      if (&*same == &motion) continue;
+      report(path + ".joint", who + ": motion " + quoted(same->name) + " moves the same coordinate",
+             "leave one of them out");
+    }
   }
 
   void check_points() {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/laws/contact_law.h"
+#include "core/laws/motion_law.h"
 
 namespace linkstudy {
 
@@ -293,6 +294,45 @@ struct Load {
   bool operator==(const Load&) const = default;
 };
 
+// Motion of a joint coordinate as a law of time, whatever it takes
+// (core/laws/prescribed_motion.h). Not of a quaternion.
+struct Motion {
+  std::string name;
+  std::string joint;
+  int coordinate = 0;  // within the joint
+  MotionLaw law = MotionLaw::speed;
+  std::optional<double> from;     // rad or m; empty: where the joint starts; middle of a sine
+  double to = 0.0;                // rad or m: linear, smooth, polynomial_345
+  double duration = 0.0;          // s: from `from` to `to`
+  double speed = 0.0;             // rad/s or m/s
+  double rise = 0.0;              // s: time to full speed
+  double amplitude = 0.0;         // rad or m: sine
+  double frequency = 0.0;         // Hz
+  double phase = 0.0;             // rad
+  std::vector<double> times;      // s, rising: table
+  std::vector<double> positions;  // rad or m, as many
+
+  bool operator==(const Motion&) const = default;
+};
+
+// A linear relation between joint coordinates, held exactly: gears, racks, belts, differentials.
+//   sum of factor * coordinate = offset
+// in rad or m, as the coordinate of the first term is; factors in SI. Not of quaternions.
+struct CouplingTerm {
+  std::string joint;
+  int coordinate = 0;  // within the joint
+  double factor = 1.0;
+
+  bool operator==(const CouplingTerm&) const = default;
+};
+struct Coupling {
+  std::string name;
+  std::vector<CouplingTerm> terms;
+  std::optional<double> offset;  // empty: as the joints are described to start
+
+  bool operator==(const Coupling&) const = default;
+};
+
 // A point of a link whose motion is asked for; it takes no part in the dynamics.
 struct ChosenPoint {
   std::string name;
@@ -309,6 +349,8 @@ struct Linkage {
   std::vector<Joint> joints;
   std::vector<Closure> closures;
   std::vector<Load> loads;
+  std::vector<Motion> motions;
+  std::vector<Coupling> couplings;
   std::vector<ChosenPoint> points;
 
   bool operator==(const Linkage&) const = default;

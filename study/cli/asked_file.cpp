@@ -23,13 +23,23 @@ void require_writable(const std::string& option, const std::optional<std::string
                : fmt::format("{} {}: there is no directory '{}'", option, *path, folder.string()));
 }
 
+void require_other_file(const std::string& option, const std::optional<std::string>& path,
+                        const std::string& input) {
+  std::error_code ignored;
+  if (!path || *path == "-" || !fs::equivalent(*path, input, ignored)) return;
+  throw UsageError(
+      fmt::format("{} {}: is the input, whose comments would be lost; choose another "
+                  "file",
+                  option, *path));
+}
+
 void remove_old(const std::optional<std::string>& path) {
   std::error_code ignored;  // what cannot be removed is reported when it is written
   if (path && *path != "-" && fs::is_regular_file(*path, ignored)) fs::remove(*path, ignored);
 }
 
 void print_text(const CommandLine& line, const std::string& text) {
-  if (line.json || line.csv == "-") {
+  if (line.json || line.csv == "-" || line.write_start == "-") {
     fmt::print(stderr, "{}", text);
   } else {
     print_out(text);

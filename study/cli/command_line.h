@@ -42,6 +42,8 @@ struct CommandLine : SessionOptions, CourseRequest {
   std::optional<std::string> format;
   std::optional<std::string> h5;
   std::optional<int> ranks;
+  std::optional<int> modes;
+  std::optional<std::string> write_start;
   double probe_s = 2.0;
   std::optional<std::uint64_t> evaluation;
   std::optional<std::string> figure;

@@ -196,18 +196,24 @@ Rows plan_options() {
   };
 }
 
-// Of the course of driven joints.
+// Of the course of driven joints, and of an equilibrium.
 Rows course_options() {
   using Line = CommandLine;
   return {
       {"drive", "joint.NAME[=FROM:TO]",
-       "driven coordinate; repeatable; default: the model's [kinematics], else the joint of the "
-       "first drive load, else the first on ground",
+       "driven coordinate; repeatable; default: the model's [kinematics], else its [[motion]]s, "
+       "else the joint of the first drive load, else the first on ground",
        fill(&Line::drives)},
       {"from", "Q", "first position of the drive, such as 0 or \"90 deg\"; default: the start",
        fill(&Line::from)},
       {"to", "Q", "last position; default: a full turn on", fill(&Line::to)},
       {"positions", "N", "number of positions, both ends included (73)", fill(&Line::positions)},
+      {"write-start", "FILE",
+       "also write the model with the assembled start (and equilibrium) in its joints",
+       fill(&Line::write_start)},
+      {"modes", "N",
+       "also print the N slowest modes about the equilibrium: frequency, damping, shape",
+       fill(&Line::modes)},
       {"speed", "V", "constant speed of a single drive (1 rad/s or m/s)", fill(&Line::speed)},
   };
 }
@@ -262,6 +268,7 @@ void check_values(const CommandLine& line) {
   require(is_positive(line.walltime_s), "--walltime must be a positive number of seconds");
   require(!line.positions || (*line.positions >= 2 && *line.positions <= 1000000),
           "--positions must be from 2 to 1000000");
+  require(!line.modes || *line.modes > 0, "--modes must be positive");
   require(!line.count || *line.count > 0, "--count must be positive");
   require(!(line.count && line.all), "--all runs every evaluation; leave out --count");
   require(!line.ranks || (*line.ranks > 0 && *line.ranks <= 1000000),

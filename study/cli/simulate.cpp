@@ -7,6 +7,7 @@
 #include "study/cli/input.h"
 #include "study/cli/run_points.h"
 #include "study/cli/verb_table.h"
+#include "study/config/started_model.h"
 #include "study/report/console.h"
 #include "study/report/model_report.h"
 #include "study/report/series_table.h"
@@ -28,6 +29,7 @@ int run_into_directory(const CommandLine& line) {
   require(!line.csv,
           "--csv with -o: the histories are in the directory; linkstudy export DIR "
           "--table traces --format csv prints them");
+  require(!line.write_start, "--write-start goes without -o");
   return run_points(line, [&] { return read_model_as_study(line); });
 }
 
@@ -38,6 +40,8 @@ int run_simulate(const CommandLine& line) {
   if (line.output) return run_into_directory(line);
   require(!line.fresh, "--fresh goes with -o DIR");
   require_writable("--csv", line.csv);
+  require_writable("--write-start", line.write_start);
+  require_other_file("--write-start", line.write_start, line.inputs.front());
   const ModelInput input = read_model_input(line);
   const auto begin = Clock::now();
   Observers observers;
@@ -50,6 +54,9 @@ int run_simulate(const CommandLine& line) {
     print_err(failure_text(preparation));
     if (line.json) print_out(outcome_json(preparation, nullptr, seconds_since(begin)) + "\n");
     return kTooManyFailed;
+  }
+  if (line.write_start) {
+    write_asked(*line.write_start, started_model_text(input, preparation.model));
   }
   const SimulationOutcome outcome =
       run_watched(preparation, input.options, observers, line.timeout_s.value_or(0.0),

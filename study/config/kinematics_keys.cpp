@@ -27,7 +27,8 @@ Fields<DriveCourse> drive_fields() {
             {.meaning = "coordinate within the joint, from 0; none of a quaternion",
              .range = {.low = 0, .high = 5}});
   drive.add("law", &DriveCourse::law,
-            {.meaning = "way from `from` to `to`, with s = t / duration"});
+            {.meaning = "way from `from` to `to`, with s = t / duration",
+             .words = {"linear", "smooth", "polynomial_345", "table"}});
   drive.add("from", &DriveCourse::from,
             {.meaning = "begin; default: where the linkage stands",
              .unit = "rad|m",

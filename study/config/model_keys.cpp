@@ -95,6 +95,14 @@ Fields<Linkage> linkage_fields() {
                  closure_fields());
   linkage.tables("load", &Linkage::loads, {.meaning = "drives, resistances and forces"},
                  load_fields());
+  linkage.tables("motion", &Linkage::motions,
+                 {.meaning = "coordinates that follow a law of time, whatever it takes: channels "
+                             "motion.NAME.effort, power"},
+                 motion_fields());
+  linkage.tables("coupling", &Linkage::couplings,
+                 {.meaning = "linear relations between coordinates, held exactly (gears, racks, "
+                             "belts, differentials): channel coupling.NAME.effort"},
+                 coupling_fields());
   linkage.tables("point", &Linkage::points,
                  {.meaning = "points to watch, channels point.NAME.position, velocity, "
                              "acceleration; of no effect on the motion"},

@@ -29,10 +29,12 @@ Fields<FlexibleBeam> flexible_fields();
 Fields<Clearance> clearance_fields();
 Fields<Clearance> contact_fields();
 
-// [[joint]], [[closure]], [[load]], [simulation], [kinematics].
+// [[joint]], [[closure]], [[load]], [[motion]], [[coupling]], [simulation], [kinematics].
 Fields<Joint> joint_fields();
 Fields<Closure> closure_fields();
 Fields<Load> load_fields();
+Fields<Motion> motion_fields();
+Fields<Coupling> coupling_fields();
 Fields<SimulationOptions> simulation_fields();
 Fields<KinematicsOptions> kinematics_fields();
 

@@ -33,11 +33,12 @@ bool is_about_connections(const std::string& path) {
          last == "joint" || last == "coordinate";
 }
 
-// Which keys a load needs follows from its type.
-bool load_type_is_known(const Tree& model, const std::string& path) {
+// Which keys a load or a motion needs follows from its type or law.
+bool kind_is_known(const Tree& model, const std::string& path) {
   const std::vector<std::string> parts = split_path(path);
   bool reported = false;
   if (parts[0] == "load") locate(model, parts[0] + "." + parts[1] + ".type", &reported);
+  if (parts[0] == "motion") locate(model, parts[0] + "." + parts[1] + ".law.shape", &reported);
   return !reported;
 }
 
@@ -47,9 +48,18 @@ void check_structure(const Linkage& linkage, const Tree& model, Diagnostics& dia
     bool reported = false;
     const Location at = locate(model, problem.path, &reported);
     if (reported || (!known && is_about_connections(problem.path))) continue;
-    if (!load_type_is_known(model, problem.path)) continue;
+    if (!kind_is_known(model, problem.path)) continue;
     diagnostics.add(at, std::move(problem.message), std::move(problem.remedy));
   }
+}
+
+// Self-stresses of loops are those of closures; a coupling would take part in them.
+void check_shared_reactions(const ModelInput& input, const Tree& model, Diagnostics& diagnostics) {
+  const bool shares = input.options.redundant_reactions == RedundantReactions::loops;
+  if (!shares || input.linkage.couplings.empty()) return;
+  diagnostics.add(locate(model, "simulation.redundant_reactions"),
+                  "simulation.redundant_reactions = \"loops\" does not know couplings",
+                  "use \"cut\", or leave out [[coupling]]");
 }
 
 const Tree* descend(const Tree& tree, const std::string& part) {
@@ -86,6 +96,7 @@ ModelInput read_model(Tree model, Diagnostics& diagnostics) {
   fill_record(&input, model, model_schema(), diagnostics);
   input.linkage.name = input.name;
   check_structure(input.linkage, model, diagnostics);
+  check_shared_reactions(input, model, diagnostics);
   input.resolved = std::move(model);
   return input;
 }

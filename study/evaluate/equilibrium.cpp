@@ -4,6 +4,7 @@
 
 #include "core/dynamics/static_balance.h"
 #include "core/simulation/simulate.h"
+#include "core/topology/resting_motions.h"
 
 namespace linkstudy {
 namespace {
@@ -15,7 +16,7 @@ std::vector<Channel> static_channels(const Mechanism& mechanism) {
         channel.quantity == Quantity::q || channel.quantity == Quantity::joint_force ||
         channel.quantity == Quantity::joint_torque || channel.quantity == Quantity::closure_force ||
         channel.quantity == Quantity::closure_torque || channel.quantity == Quantity::closure_gap ||
-        channel.quantity == Quantity::point_position;
+        channel.quantity == Quantity::motion_effort || channel.quantity == Quantity::point_position;
     if (is_wanted) channels.push_back(channel);
   }
   return channels;
@@ -34,6 +35,7 @@ std::string hold_name(const Mechanism& m, int velocity) {
 std::vector<std::string> take_statics(ModelInput& input) {
   input.options.start = Start::equilibrium;
   for (Joint& joint : input.linkage.joints) joint.velocity.clear();
+  input.linkage = with_resting_motions(std::move(input.linkage));
   std::vector<std::string> made_ideal;
   for (Closure& closure : input.linkage.closures) {
     if (closure.model != ClosureModel::clearance) continue;
@@ -61,6 +63,7 @@ std::vector<StaticValue> equilibrium_values(const Preparation& preparation,
     values.push_back({series.channels[i].name, series.values[i], series.channels[i].unit});
   }
   for (const int k : model.held) {
+    if (model.mechanism.velocities[static_cast<std::size_t>(k)].motion >= 0) continue;
     values.push_back(
         {hold_name(model.mechanism, k), statics.holding[k], effort_unit(model.mechanism, k)});
   }

@@ -118,9 +118,9 @@ void set_range(const CourseRequest& request, std::vector<Driven>& chosen) {
   if (is_given) {
     throw UsageError(fmt::format("{} and a range in --drive contradict each other", option));
   }
-  if (driven.course.law == MotionLaw::table) {
-    throw UsageError(fmt::format("{} cannot change a table: give --drive {}=FROM:TO", option,
-                                 driven.drive.name));
+  if (driven.course.has_own_time()) {
+    throw UsageError(fmt::format("{} cannot change a table or a motion: give --drive {}=FROM:TO",
+                                 option, driven.drive.name));
   }
   if (request.from) {
     driven.course.from = read_quantity("--from", *request.from, unit_of(driven.drive));
@@ -135,7 +135,7 @@ void fill_in(std::vector<Driven>& chosen, const State<double>& start, double ext
     DriveCourse& course = driven.course;
     if (course.law == MotionLaw::table) continue;
     if (!course.from) course.from = start.q[static_cast<std::size_t>(driven.drive.position)];
-    if (course.to) continue;
+    if (course.to || course.motion) continue;
     const double whole = driven.drive.turns ? 2.0 * std::numbers::pi : 0.1 * extent;
     course.to = *course.from + (chosen.size() == 1 ? whole : 0.0);
   }
@@ -145,7 +145,7 @@ void fill_in(std::vector<Driven>& chosen, const State<double>& start, double ext
 double longest_way(const std::vector<Driven>& chosen, bool turns) {
   double longest = 0.0;
   for (const Driven& driven : chosen) {
-    if (driven.drive.turns != turns || driven.course.law == MotionLaw::table) continue;
+    if (driven.drive.turns != turns || driven.course.has_own_time()) continue;
     longest = std::max(longest, std::abs(*driven.course.to - *driven.course.from));
   }
   return longest;
@@ -158,10 +158,28 @@ double time_at_unit_speed(const std::vector<Driven>& chosen) {
   return way > 0.0 ? way : 1.0;
 }
 
+// The longest of the ways, swings and tables of motions; of a speed once around, or over a tenth of
+// the extent.
+double time_of_motions(const std::vector<Driven>& chosen, double extent) {
+  double longest = 0.0;
+  for (const Driven& driven : chosen) {
+    const Motion& motion = *driven.course.motion;
+    const double whole = driven.drive.turns ? 2.0 * std::numbers::pi : 0.1 * extent;
+    double time = motion.duration;
+    if (motion.law == MotionLaw::sine) time = 1.0 / motion.frequency;
+    if (motion.law == MotionLaw::table) time = motion.times.back();
+    if (motion.law == MotionLaw::speed && motion.speed != 0.0) {
+      time = motion.rise + whole / std::abs(motion.speed);
+    }
+    longest = std::max(longest, time);
+  }
+  return longest > 0.0 ? longest : 1.0;
+}
+
 double choose_duration(const CourseRequest& request, const KinematicsOptions& declared,
-                       const std::vector<Driven>& chosen) {
-  const auto table = std::ranges::find_if(
-      chosen, [](const Driven& d) { return d.course.law == MotionLaw::table; });
+                       const std::vector<Driven>& chosen, double extent) {
+  const auto table =
+      std::ranges::find_if(chosen, [](const Driven& d) { return d.course.has_own_time(); });
   if (request.speed) {
     const Driven& first = chosen.front();
     const std::string unit = first.drive.turns ? "rad/s" : "m/s";
@@ -174,8 +192,12 @@ double choose_duration(const CourseRequest& request, const KinematicsOptions& de
     }
     return time_at_unit_speed(chosen) / speed;
   }
+  const bool is_declared = declared.duration && request.drives.empty();
+  if (table != chosen.end() && table->course.motion) {
+    return is_declared ? *declared.duration : time_of_motions(chosen, extent);
+  }
   if (table != chosen.end()) return table->course.times.back();
-  if (declared.duration && request.drives.empty()) return *declared.duration;
+  if (is_declared) return *declared.duration;
   return time_at_unit_speed(chosen);
 }
 
@@ -190,10 +212,10 @@ std::optional<KinematicsCourse> choose_course(const CourseRequest& request,
   CourseOptions options;
   options.positions = request.positions.value_or(declared.positions);
   const DriveCourse& first = chosen.front().course;
-  options.both_ways =
-      chosen.size() == 1 && first.law == MotionLaw::linear && !first.from && !first.to;
+  options.both_ways = chosen.size() == 1 && first.law == MotionLaw::linear && !first.motion &&
+                      !first.from && !first.to;
   fill_in(chosen, start, extent);
-  const double duration = choose_duration(request, declared, chosen);
+  const double duration = choose_duration(request, declared, chosen, extent);
   std::vector<Drive> drives;
   std::vector<DriveCourse> courses;
   for (const Driven& driven : chosen) {

@@ -120,6 +120,10 @@ const char* name_of(MotionLaw law) {
       return "polynomial 3-4-5";
     case MotionLaw::table:
       return "table";
+    case MotionLaw::speed:
+      return "speed";
+    case MotionLaw::sine:
+      return "sine";
     default:
       return "linear";
   }
@@ -131,6 +135,10 @@ std::string drive_text(const Drive& drive, const DriveCourse& course, double dur
                        *between == 't' ? "from" : "between", position_text(drive, from), between,
                        position_text(drive, to), name_of(course.law), duration);
   };
+  if (course.motion) {
+    return fmt::format("{} by motion.{}, {} in {:.6g} s", drive.name, course.motion->name,
+                       name_of(course.motion->law), duration);
+  }
   if (course.law == MotionLaw::table) {
     const auto [least, most] =
         std::minmax_element(course.positions.begin(), course.positions.end());

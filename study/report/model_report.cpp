@@ -8,6 +8,7 @@
 
 #include "study/record/json_number.h"
 #include "study/report/console.h"
+#include "study/report/modes_report.h"
 
 namespace linkstudy {
 namespace {
@@ -294,7 +295,7 @@ std::string outcome_json(const Preparation& preparation, const SimulationOutcome
 }
 
 std::string statics_json(const Preparation& preparation, const std::vector<StaticValue>& values,
-                         double wall_s) {
+                         const std::vector<Mode>& modes, double wall_s) {
   Json json = outcome_object(preparation, nullptr, wall_s);
   if (preparation.cause != Cause::ok) return json_text(json);
   json["verdict"] = statics_text(*preparation.statics);
@@ -304,6 +305,7 @@ std::string statics_json(const Preparation& preparation, const std::vector<Stati
     json["values"][value.name] = json_number(value.value);
     json["units"][value.name] = value.unit;
   }
+  json["modes"] = Json::parse(modes_json(preparation.model.mechanism, modes));
   return json_text(json);
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/dynamics/modes.h"
 #include "core/simulation/prepare.h"
 #include "core/simulation/simulate.h"
 #include "study/evaluate/equilibrium.h"
@@ -43,8 +44,9 @@ std::string outcome_text(const SimulationOutcome& outcome, const SimulationOptio
 std::string outcome_json(const Preparation& preparation, const SimulationOutcome* outcome,
                          double wall_s);
 
-// The object of `statics --json`: that of a run, the equilibrium, and its values and units by name.
+// The object of `statics --json`: that of a run, the equilibrium, its values and units by name, and
+// the modes about it.
 std::string statics_json(const Preparation& preparation, const std::vector<StaticValue>& values,
-                         double wall_s);
+                         const std::vector<Mode>& modes, double wall_s);
 
 }  // namespace linkstudy

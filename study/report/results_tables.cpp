@@ -91,6 +91,8 @@ constexpr std::array<ResultsTable, 22> kTables = {{
     {"equilibrium", "coordinates, reactions, holds, closures and points at the equilibrium",
      [](const StudyResults& r) { return part_of(AnswerKind::statics, r, "equilibrium"); },
      kNoStatics},
+    {"modes", "modes about the equilibrium: frequency, damping, shape by coordinates",
+     [](const StudyResults& r) { return part_of(AnswerKind::statics, r, "modes"); }, kNoStatics},
     {"singular", "singular positions of the course: kind, place, ranks, joints that may move",
      [](const StudyResults& r) { return part_of(AnswerKind::kinematics, r, "singular"); },
      "no singular position was passed, or these are no results of kinematics"},

@@ -14,6 +14,7 @@
 #include "study/kinematics/table.h"
 #include "study/record/bytes.h"
 #include "study/report/model_report.h"
+#include "study/report/modes_report.h"
 #include "study/session/identity.h"
 #include "study/session/study_record.h"
 #include "study/store/store_error.h"
@@ -69,6 +70,7 @@ StaticsAnalysis analyse_statics(ModelInput input) {
   analysis.preparation = prepare(input.linkage, input.options);
   if (analysis.preparation.cause == Cause::ok) {
     analysis.values = equilibrium_values(analysis.preparation, input.options);
+    analysis.modes = compute_modes(analysis.preparation.model, analysis.preparation.model.start);
   }
   analysis.input = std::move(input);
   analysis.wall_s = elapsed_s(begin);
@@ -79,6 +81,14 @@ KinematicsAnalysis analyse_course(ModelInput input, const CourseRequest& request
   const auto begin = Clock::now();
   KinematicsAnalysis analysis;
   analysis.closed = std::make_unique<const Model>(compile_closed(input.rigid));
+  if (input.kinematics.drives.empty()) {
+    for (const Motion& motion : input.linkage.motions) {
+      DriveCourse& course = input.kinematics.drives.emplace_back();
+      course.joint = motion.joint;
+      course.coordinate = motion.coordinate;
+      course.motion = motion;
+    }
+  }
   analysis.result = analyse_kinematics(request, input.kinematics, *analysis.closed);
   analysis.input = std::move(input);
   analysis.wall_s = elapsed_s(begin);
@@ -100,7 +110,10 @@ ModelResults results_of(const StaticsAnalysis& analysis) {
   }
   results.tables.push_back(findings_table(findings));
   if (!analysis.values.empty()) results.tables.push_back(equilibrium_table(analysis.values));
-  results.json = without_wall_time(statics_json(preparation, analysis.values, 0.0));
+  if (!analysis.modes.empty()) {
+    results.tables.push_back(modes_table(preparation.model.mechanism, analysis.modes));
+  }
+  results.json = without_wall_time(statics_json(preparation, analysis.values, analysis.modes, 0.0));
   return results;
 }
 

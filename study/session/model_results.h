@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "core/dynamics/modes.h"
 #include "core/simulation/prepare.h"
 #include "study/config/model_document.h"
 #include "study/evaluate/equilibrium.h"
@@ -21,6 +22,7 @@ struct StaticsAnalysis {
   std::vector<std::string> made_ideal;  // closures with clearance
   Preparation preparation;
   std::vector<StaticValue> values;  // empty where there is no equilibrium
+  std::vector<Mode> modes;          // about it
   double wall_s = 0.0;
 };
 StaticsAnalysis analyse_statics(ModelInput input);

@@ -1,0 +1,16 @@
+// A model file whose joints begin where a run of it began.
+#pragma once
+
+#include <string>
+
+#include "core/model/compile.h"
+#include "study/config/model_reader.h"
+
+namespace linkstudy {
+
+// The resolved input with `initial.position` and `.velocity` of every joint as they are in
+// `started` (assembled, at equilibrium where that was asked for), to the last bit. What elements
+// inside flexible links do cannot be written.
+std::string started_model_text(const ModelInput& input, const Model& started);
+
+}  // namespace linkstudy
