@@ -45,7 +45,7 @@ Made summary_of(const StudyResults& results) {
   return summary_table(results);
 }
 
-constexpr std::array<ResultsTable, 22> kTables = {{
+constexpr std::array<ResultsTable, 23> kTables = {{
     {"summary",
      "what varies, the worst errors in percent, responses, status; by load case. Of statics and "
      "kinematics what was found, in words",
