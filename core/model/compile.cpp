@@ -51,6 +51,7 @@ std::vector<BasicMotion> motions_of(const Joint& joint) {
     case JointType::free:
       return ball_joint ? std::vector{tx, ty, tz, ball} : std::vector{tx, ty, tz, rz, ry, rx};
     case JointType::fixed:
+    case JointType::pin_in_slot:
       return {};
   }
   return {};

@@ -191,6 +191,10 @@ void check_joint(const Joint& joint, const std::string& path, std::vector<Proble
     record.report("pitch", "pitch of a screw joint must not be zero, got " + text_of(joint.pitch),
                   "give the advance per turn, or use a revolute joint");
   }
+  if (joint.type == JointType::pin_in_slot) {
+    record.report("type", "type = \"pin_in_slot\" is of closures, not of joints of the tree",
+                  "make it a [[closure]], or use a joint with coordinates of its own");
+  }
   check_start(joint, record);
   check_spring(joint, record);
   if (joint.friction) check_joint_friction(joint, record);

@@ -18,6 +18,8 @@ int velocity_count(JointType type) {
       return 3;
     case JointType::free:
       return 6;
+    case JointType::pin_in_slot:
+      return 4;
   }
   return 0;
 }
@@ -42,6 +44,8 @@ unsigned blocked_directions(JointType type) {
       return y | z | phi | theta | psi;
     case JointType::cylindrical:
       return y | z | theta | psi;
+    case JointType::pin_in_slot:
+      return y | z;
     case JointType::planar:
       return x | theta | psi;
     case JointType::fixed:

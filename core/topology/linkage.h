@@ -63,6 +63,8 @@ struct Link {
 //   universal    rotation about z, then about the new y  planar      translation x, y, rotation z
 //   spherical    rotation z, new y, new x (psi, theta, phi), or a unit quaternion
 //   free         translation x, y, z, then as spherical  fixed       none
+// Of closures only:
+//   pin_in_slot  a point of the second end stays on the x axis of the first, and turns freely
 enum class JointType {
   revolute,
   prismatic,
@@ -72,7 +74,8 @@ enum class JointType {
   planar,
   free,
   fixed,
-  screw
+  screw,
+  pin_in_slot
 };
 
 // Coordinates of the rotation in a spherical or free joint. zyx: three angles psi, theta, phi with

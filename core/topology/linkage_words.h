@@ -17,7 +17,9 @@ inline constexpr auto kWords<JointType> =
                            {JointType::planar, "planar"},
                            {JointType::free, "free"},
                            {JointType::fixed, "fixed"},
-                           {JointType::screw, "screw"}});
+                           {JointType::screw, "screw"},
+                           {JointType::pin_in_slot, "pin_in_slot",
+                            "a point of second on the x axis of first, turning freely"}});
 
 template <>
 inline constexpr auto kWords<RotationCoordinates> =
@@ -100,7 +102,13 @@ inline constexpr auto kWords<ResistanceShape> = make_words<ResistanceShape>(
 // What a closure can be, in the order in which it is shown: all that block a direction.
 inline constexpr std::array kClosureTypes = {
     JointType::spherical,   JointType::revolute, JointType::universal, JointType::prismatic,
-    JointType::cylindrical, JointType::planar,   JointType::fixed};
+    JointType::cylindrical, JointType::planar,   JointType::fixed,     JointType::pin_in_slot};
+
+// What a joint of the tree can be.
+inline constexpr std::array kTreeJointTypes = {
+    JointType::revolute,  JointType::prismatic, JointType::cylindrical,
+    JointType::universal, JointType::spherical, JointType::planar,
+    JointType::free,      JointType::fixed,     JointType::screw};
 
 // The end of a clearance that carries the bearing, Clearance::bearing_is_first.
 inline constexpr auto kBearingEnds = make_words<bool>({{false, "second"}, {true, "first"}});

@@ -123,7 +123,9 @@ Fields<Joint> joint_fields() {
   Fields<Joint> joint;
   joint.add("name", &Joint::name, {.type = name, .meaning = "name of the joint", .required = true});
   joint.add("type", &Joint::type,
-            {.meaning = "kind of joint; it moves along or about local z", .required = true});
+            {.meaning = "kind of joint; it moves along or about local z",
+             .required = true,
+             .words = word_texts(std::span<const JointType>(kTreeJointTypes))});
   joint.add("coordinates", &Joint::coordinates,
             {.meaning = "coordinates of the rotation",
              .only = only_where("type", {Type::spherical, Type::free})});

@@ -27,6 +27,7 @@ std::string motions(JointType type) {
     case JointType::free:
       return "mmmrrr";
     case JointType::fixed:
+    case JointType::pin_in_slot:
       return "";
   }
   return "";
