@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/dynamics/differences.h"
+#include "core/dynamics/linear_springs.h"
 #include "core/dynamics/motion.h"
 #include "core/forces/contact_memory.h"
 #include "core/kinematics/assembly.h"
@@ -204,7 +205,9 @@ Spectrum spectrum_of(std::vector<std::complex<double>> eigenvalues) {
 Spectrum compute_spectrum(const Model& model, const State<double>& s,
                           const std::vector<double>& approach) {
   if (model.mechanism.nv == 0) return spectrum_of({});
-  const MatrixXd a = linear_system(with_directions(model, s), s, approach);
+  Workspace<double> w = make_workspace<double>(model.mechanism);
+  const std::optional<Model> linear = with_linear_springs(model, s, w);
+  const MatrixXd a = linear_system(with_directions(linear ? *linear : model, s), s, approach);
   if (!a.allFinite()) {
     const double unknown = std::numeric_limits<double>::quiet_NaN();
     return {{}, unknown, unknown};

@@ -61,6 +61,13 @@ constexpr std::array kKinds = {
     ChannelKind{Quantity::joint_friction, "joint", "friction", "[i]", "N m|N", kRubbing,
                 "friction, positive against the rate of the coordinate; of a cylindrical joint 0 "
                 "against its turn, 1 against its shift"},
+    ChannelKind{Quantity::spring_length, "spring", "length", "", "m", "",
+                "distance of the two points"},
+    ChannelKind{Quantity::spring_rate, "spring", "rate", "", "m/s", "",
+                "rate of the length, positive where the points move apart"},
+    ChannelKind{Quantity::spring_force, "spring", "force", "", "N", "",
+                "force of spring, damper and actuator along the line, positive where it pulls the "
+                "points together"},
     ChannelKind{Quantity::point_position, "point", "position", kVector, "m", "",
                 "position from the ground's origin, ground axes"},
     ChannelKind{Quantity::point_velocity, "point", "velocity", kVector, "m/s", "",

@@ -30,6 +30,7 @@ class Lister {
       add_vector(name, Quantity::closure_gap, closure);
       add_clearances_of(closure, name);
     }
+    for (std::size_t i = 0; i < m_.spring_names.size(); ++i) add_spring(i);
     for (std::size_t i = 0; i < m_.point_bodies.size(); ++i) add_point(i);
     for (const ChannelKind& kind : channel_kinds()) {
       if (kind.owner == "energy") add("energy", kind.quantity, 0);
@@ -62,6 +63,13 @@ class Lister {
     constexpr const char* axes[] = {".x", ".y", ".z"};
     for (int i = 0; i < size; ++i) {
       add(owner, quantity, index, {.suffix = axes[i], .component = i});
+    }
+  }
+
+  void add_spring(std::size_t i) {
+    const std::string name = "spring." + m_.spring_names[i];
+    for (const ChannelKind& kind : channel_kinds()) {
+      if (kind.owner == "spring") add(name, kind.quantity, static_cast<int>(i));
     }
   }
 

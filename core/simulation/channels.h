@@ -29,6 +29,9 @@ enum class Quantity : std::uint8_t {
   contact_state,
   friction_load,
   joint_friction,
+  spring_length,
+  spring_rate,
+  spring_force,
   point_position,
   point_velocity,
   point_acceleration,
@@ -43,7 +46,8 @@ struct Channel {
   std::string name;
   std::string unit;
   Quantity quantity;
-  int index = 0;      // coordinate, body, closure, clearance, contact, bristle, friction or point
+  int index =
+      0;  // coordinate, body, closure, clearance, contact, bristle, friction, spring or point
   int component = 0;  // 0 1 2 for x y z
   int body = 0;       // that carries a point
 };

@@ -70,6 +70,12 @@ class Instant {
       case Quantity::joint_friction:
         return c.component == 0 ? at(w_.frictions, c.index).on_turn
                                 : at(w_.frictions, c.index).on_slide;
+      case Quantity::spring_length:
+        return at(w_.point_springs, c.index).length;
+      case Quantity::spring_rate:
+        return at(w_.point_springs, c.index).rate;
+      case Quantity::spring_force:
+        return at(w_.point_springs, c.index).force;
       case Quantity::point_position:
       case Quantity::point_velocity:
       case Quantity::point_acceleration:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/topology/check_spring.h"
 #include "core/topology/check_values.h"
 #include "core/topology/flexible_beam.h"
 #include "core/topology/nearest_name.h"
@@ -26,6 +27,7 @@ class Checker {
     check_names("joint", linkage_.joints);
     check_names("closure", linkage_.closures);
     check_names("load", linkage_.loads);
+    check_names("spring", linkage_.springs);
     check_names("point", linkage_.points);
     check_link_values();
     check_element_names();
@@ -33,6 +35,7 @@ class Checker {
     check_tree();
     check_closures();
     check_loads();
+    check_springs();
     check_points();
     return std::move(problems_);
   }
@@ -229,19 +232,7 @@ class Checker {
       const std::string path = path_of("closure", linkage_.closures, i);
       const std::string who = "closure " + quoted(closure.name);
       check_closure(closure, path, problems_);
-      const bool first_is_known = is_body(closure.first.link);
-      const bool second_is_known = is_body(closure.second.link);
-      if (!first_is_known) {
-        report_unknown_link(path + ".first.link", who, "first.link", closure.first.link);
-      }
-      if (!second_is_known) {
-        report_unknown_link(path + ".second.link", who, "second.link", closure.second.link);
-      }
-      if (first_is_known && second_is_known && closure.first.link == closure.second.link) {
-        report(path + ".second.link",
-               who + ": both ends are on the same link '" + closure.second.link + "'",
-               "a closure connects two different links");
-      }
+      check_ends(closure, path, who, "a closure connects two different links");
     }
   }
 
@@ -280,6 +271,34 @@ class Checker {
                " coordinates, counted from 0, got " + std::to_string(load.coordinate),
            count == 0 ? "a fixed joint cannot carry a load; choose another joint"
                       : "choose a coordinate from 0 to " + std::to_string(count - 1));
+  }
+
+  void check_springs() {
+    for (std::size_t i = 0; i < linkage_.springs.size(); ++i) {
+      const PointSpring& spring = linkage_.springs[i];
+      const std::string path = path_of("spring", linkage_.springs, i);
+      const std::string who = "spring " + quoted(spring.name);
+      check_point_spring(spring, path, problems_);
+      check_ends(spring, path, who, "a spring acts between points of two different links");
+    }
+  }
+
+  // Of a closure or spring: two links that exist.
+  template <class Record>
+  void check_ends(const Record& record, const std::string& path, const std::string& who,
+                  const char* remedy) {
+    const bool first_is_known = is_body(record.first.link);
+    const bool second_is_known = is_body(record.second.link);
+    if (!first_is_known) {
+      report_unknown_link(path + ".first.link", who, "first.link", record.first.link);
+    }
+    if (!second_is_known) {
+      report_unknown_link(path + ".second.link", who, "second.link", record.second.link);
+    }
+    if (first_is_known && second_is_known && record.first.link == record.second.link) {
+      report(path + ".second.link",
+             who + ": both ends are on the same link '" + record.second.link + "'", remedy);
+    }
   }
 
   void check_points() {

@@ -95,6 +95,10 @@ Fields<Linkage> linkage_fields() {
                  closure_fields());
   linkage.tables("load", &Linkage::loads, {.meaning = "drives, resistances and forces"},
                  load_fields());
+  linkage.tables("spring", &Linkage::springs,
+                 {.meaning = "springs, dampers and actuators along the line between two points, "
+                             "channels spring.NAME.length, rate, force"},
+                 point_spring_fields());
   linkage.tables("point", &Linkage::points,
                  {.meaning = "points to watch, channels point.NAME.position, velocity, "
                              "acceleration; of no effect on the motion"},

@@ -29,10 +29,15 @@ Fields<FlexibleBeam> flexible_fields();
 Fields<Clearance> clearance_fields();
 Fields<Clearance> contact_fields();
 
-// [[joint]], [[closure]], [[load]], [simulation], [kinematics].
+// A course over time of values in this unit.
+using UnitsBy = std::function<std::vector<std::string>(const Tree& document, const Tree& element)>;
+Fields<Course> course_fields(const std::string& unit, const UnitsBy& units_by);
+
+// [[joint]], [[closure]], [[load]], [[spring]], [simulation], [kinematics].
 Fields<Joint> joint_fields();
 Fields<Closure> closure_fields();
 Fields<Load> load_fields();
+Fields<PointSpring> point_spring_fields();
 Fields<SimulationOptions> simulation_fields();
 Fields<KinematicsOptions> kinematics_fields();
 

@@ -15,6 +15,7 @@ std::vector<Channel> static_channels(const Mechanism& mechanism) {
         channel.quantity == Quantity::q || channel.quantity == Quantity::joint_force ||
         channel.quantity == Quantity::joint_torque || channel.quantity == Quantity::closure_force ||
         channel.quantity == Quantity::closure_torque || channel.quantity == Quantity::closure_gap ||
+        channel.quantity == Quantity::spring_length || channel.quantity == Quantity::spring_force ||
         channel.quantity == Quantity::point_position;
     if (is_wanted) channels.push_back(channel);
   }
