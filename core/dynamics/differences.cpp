@@ -34,6 +34,11 @@ Extent compute_extent(const Model& model, const State<double>& s) {
     add(c.p1);
     add(c.p2);
   }
+  for (std::size_t i = 0; i < w.point_springs.size(); ++i) {
+    const PointSpringStructure& spring = m.point_springs[i];
+    add(w.bodies[static_cast<std::size_t>(spring.first)].p + w.point_springs[i].arm_1);
+    add(w.bodies[static_cast<std::size_t>(spring.second)].p + w.point_springs[i].arm_2);
+  }
   const double length = box.isEmpty() ? 0.0 : box.diagonal().norm();
   if (length > kCoincidence) extent.length = length;
   return extent;

@@ -10,7 +10,7 @@
 
 namespace linkstudy {
 
-// Of the origins, centres of mass and closure points of all bodies at a pose.
+// Of the origins, centres of mass, closure points and ends of springs of all bodies at a pose.
 struct Extent {
   double length = 1.0;    // m, diagonal of the box around them; 1 where they coincide (to 1 um)
   double farthest = 0.0;  // m, largest distance from the ground's origin: what positions round by

@@ -1,9 +1,11 @@
 // Energies of a linkage after `evaluate`. Kinetic: of the bodies. Potential: gravity -m g . p_C
-// (zero at the ground origin), sdes 1/2 c d^2 ([Urbas16] eq. (5)), springs in joints, and
+// (zero at the ground origin), sdes 1/2 c d^2 ([Urbas16] eq. (5)), springs in joints and between
+// points (of a table the integral of its force, zero where that is least within the table), and
 // K delta^(n+1) / (n+1) of contacts. Ledger:
 //   kinetic + potential - (the same at the start) = supplied - dissipated + residual.
 #pragma once
 
+#include "core/forces/point_springs.h"
 #include "core/model/parameters.h"
 #include "core/model/walk.h"
 #include "core/model/workspace.h"
@@ -14,7 +16,7 @@ template <class Real>
 struct Energy {
   Real kinetic;  // J
   Real height;   // potential energy of weight, J
-  Real elastic;  // of replacement joints, springs in joints, and contacts, J
+  Real elastic;  // of replacement joints, springs and contacts, J
 
   Real potential() const { return height + elastic; }
 };
@@ -40,6 +42,10 @@ inline Energy<Real> compute_energy(const Mechanism& m, const Parameters<Real>& p
     const JointSpringParameters<Real>& n = at(p.joint_springs, i);
     const Real d = q[at(m.joint_springs, i).q] - n.rest;
     e.elastic = madd(Real(0.5) * n.stiffness * d, d, e.elastic);
+  }
+  for (const int i : indices_of(m.point_springs)) {
+    e.elastic = e.elastic + point_spring_energy(at(m.point_springs, i), at(p.point_springs, i),
+                                                p.segments.data(), at(w.point_springs, i).length);
   }
   for (const int i : indices_of(m.contacts)) {
     const ContactState<Real>& s = at(w.contacts, i);

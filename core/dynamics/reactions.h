@@ -7,6 +7,7 @@
 #pragma once
 
 #include "core/dynamics/mass_matrix.h"
+#include "core/forces/point_springs.h"
 #include "core/kinematics/body_accelerations.h"
 #include "core/kinematics/closure_kinematics.h"
 
@@ -36,6 +37,11 @@ inline void sum_free_body_wrenches(const Mechanism& m, const Parameters<Real>& p
     Wrench<Real>& sum = at(r.on_child, body);
     sum.force = sum.force - at(w.link_loads, i).force;
     sum.moment = sum.moment - at(w.link_loads, i).moment;
+  }
+  for (const int i : indices_of(m.point_springs)) {
+    const PointSpringStructure& s = at(m.point_springs, i);
+    subtract_spring_force(at(w.point_springs, i), at(r.on_child, s.first),
+                          at(r.on_child, s.second));
   }
   const auto subtract = [&](int i) {
     const ClosureStructure& c = at(m.closures, i);

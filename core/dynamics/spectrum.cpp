@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/dynamics/differences.h"
+#include "core/dynamics/linear_springs.h"
 #include "core/dynamics/motion.h"
 #include "core/forces/contact_memory.h"
 #include "core/kinematics/assembly.h"
@@ -174,7 +175,9 @@ double amplification(std::complex<double> z) {
 
 MatrixXd linear_system(const Model& model, const State<double>& s,
                        const std::vector<double>& approach) {
-  return directed_system(with_directions(model, s), s, approach);
+  Workspace<double> w = make_workspace<double>(model.mechanism);
+  const std::optional<Model> linear = with_linear_springs(model, s, w);
+  return directed_system(with_directions(linear ? *linear : model, s), s, approach);
 }
 
 double stable_step(std::complex<double> lambda) {

@@ -5,6 +5,8 @@
 // Where a ball turns with the angular velocity omega (in its own axes), dq' = dv - omega x dq.
 // An element along the line of centres whose gap is shut has no direction: it counts with its
 // stiffness and damping along all three axes, which bounds every direction it can take.
+// Springs between points count with their slope and damping at the state: a rope that is slack with
+// nothing.
 // Contacts of clearances are held open, or shut with the approach speed that they are given.
 // Step limit: the largest h with |R(h lambda)| <= 1 for every eigenvalue, R(z) = 1 + z + z^2/2 +
 // z^3/6 + z^4/24; eigenvalues in the right half plane (an unstable equilibrium, not an unstable

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/dynamics/differences.h"
+#include "core/dynamics/linear_springs.h"
 #include "core/dynamics/motion.h"
 #include "core/forces/applied_forces.h"
 #include "core/kinematics/assembly.h"
@@ -40,6 +41,8 @@ ForceGradient compute_force_gradient(const Model& model, const State<double>& s,
                                      const VectorXd& lambda, const std::vector<int>& free,
                                      Workspace<double>& w) {
   const Mechanism& m = model.mechanism;
+  const std::optional<Model> linear = with_linear_springs(model, s, w);
+  const Model& near = linear ? *linear : model;
   const VectorXd steps = difference_steps(model, s);
   const auto n = static_cast<Eigen::Index>(free.size());
   ForceGradient g{MatrixXd(n, n), MatrixXd(n, n)};
@@ -47,7 +50,7 @@ ForceGradient compute_force_gradient(const Model& model, const State<double>& s,
     const int k = free[static_cast<std::size_t>(i)];
     const auto force = [&](double x) {
       const State<double> moved = displaced(m, s, x * VectorXd::Unit(m.nv, k));
-      return take_entries(net_force(compute_balance(model, moved, w), lambda), free);
+      return take_entries(net_force(compute_balance(near, moved, w), lambda), free);
     };
     const Derivative column = differentiate(force, steps[k]);
     g.value.col(i) = column.value;
@@ -83,6 +86,12 @@ double force_scale(const Model& model, double t) {
     const LoadStructure& load = model.mechanism.loads[i];
     if (load.type == LoadType::resistance) continue;
     const double value = course_value(load, p.loads[i], p.segments.data(), t);
+    scale = std::max(scale, std::abs(value));
+  }
+  for (std::size_t i = 0; i < p.point_springs.size(); ++i) {
+    const PointSpringStructure& spring = model.mechanism.point_springs[i];
+    if (!spring.is_driven) continue;
+    const double value = course_value(spring, p.point_springs[i], p.segments.data(), t);
     scale = std::max(scale, std::abs(value));
   }
   return scale;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/dynamics/differences.h"
+#include "core/dynamics/motion.h"
 #include "core/dynamics/static_balance.h"
 #include "core/dynamics/static_descent.h"
 #include "core/dynamics/static_failure.h"
@@ -31,6 +32,24 @@ VectorXd newton_step(const BalanceSystem& s, Eigen::Index closures) {
   return x;
 }
 
+// Largest stiffness of a spring between points along its line, and across it: force / length.
+double stiffest_line(const Model& model, const State<double>& s) {
+  Workspace<double> w = make_workspace<double>(model.mechanism);
+  compute_motion(model.mechanism, model.parameters, s, w);
+  double stiffest = 0.0;
+  for (std::size_t i = 0; i < w.point_springs.size(); ++i) {
+    const PointSpringStructure& structure = model.mechanism.point_springs[i];
+    const PointSpringState<double>& x = w.point_springs[i];
+    stiffest = std::max(stiffest, model.parameters.point_springs[i].stiffness);
+    if (x.length > 0.0) stiffest = std::max(stiffest, std::abs(x.force) / x.length);
+    for (int k = structure.curve.begin; k < structure.curve.end; ++k) {
+      const double slope = model.parameters.segments[static_cast<std::size_t>(k)].slope;
+      stiffest = std::max(stiffest, std::abs(slope));
+    }
+  }
+  return stiffest;
+}
+
 // Stiffness times the rounding of positions, far from the origin too, on the levers at play: no
 // smaller force residual can be asked for.
 double rounding_floor(const Model& model, const State<double>& s) {
@@ -44,7 +63,8 @@ double rounding_floor(const Model& model, const State<double>& s) {
   for (const JointSpringParameters<double>& spring : model.parameters.joint_springs) {
     largest = std::max(largest, spring.stiffness * std::max(1.0, std::abs(spring.rest)));
   }
-  return 8.0 * std::numeric_limits<double>::epsilon() * largest;
+  return 8.0 * std::numeric_limits<double>::epsilon() *
+         std::max(largest, stiffest_line(model, s) * reach);
 }
 
 class EquilibriumSearch {

@@ -1,13 +1,13 @@
 // Static equilibrium ([Urbas16] sec. 4) by Newton-Raphson:
 //   tau(q, v = 0, t) - J^T lambda = 0,   Phi(q) = 0,
-// tau from gravity, sdes, springs and loads at the time of the state, lambda the multipliers of the
-// cut joints. Friction and resistances are left out. Joints with hold = true stay where they are:
-// their coordinates are no unknowns, and what the hold must bear is reported. The stiffness matrix
-// is taken by differences; singular systems (neutral equilibrium, redundant rows) are solved in the
-// least-norm sense. Converged: the residual is below 1e-9 of the largest weight or load at the
-// state's time, or below what rounding of the positions makes of the stiffest element. Where Newton
-// finds nothing from the start it goes downhill first (static_descent.h): a load past its limit
-// snaps through.
+// tau from gravity, sdes, springs, actuators and loads at the time of the state, lambda the
+// multipliers of the cut joints. Friction and resistances are left out. Joints with hold = true
+// stay where they are: their coordinates are no unknowns, and what the hold must bear is reported.
+// The stiffness matrix is taken by differences; singular systems (neutral equilibrium, redundant
+// rows) are solved in the least-norm sense. Converged: the residual is below 1e-9 of the largest
+// weight or load at the state's time, or below what rounding of the positions makes of the stiffest
+// element. Where Newton finds nothing from the start it goes downhill first (static_descent.h): a
+// load past its limit snaps through.
 #pragma once
 
 #include <Eigen/Core>

@@ -96,6 +96,11 @@ class Expansion {
     }
     for (Load& load : to_.loads)
       if (load.link == name_) load.link = element_of(load.point);
+    for (PointSpring& spring : to_.springs) {
+      for (SpringEnd* end : {&spring.first, &spring.second}) {
+        if (end->link == name_) end->link = element_of(end->position);
+      }
+    }
     for (ChosenPoint& point : to_.points) {
       if (point.link == name_) point.link = element_of(point.position);
     }

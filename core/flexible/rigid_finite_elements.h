@@ -22,10 +22,10 @@ namespace linkstudy {
 // The linkage with every flexible link replaced: elements <link>_rfe0 .. n in the place of the
 // link, all with the frame of the link, and joints <link>_sde1 .. n behind the link's own joint.
 // The tree grows from the element of the link's own joint towards both ends. What is attached to
-// the link (joints, ends of closures, loads, chosen points) goes to the element whose span holds
-// the projection of its point on the beam; where two spans meet, the one towards `end`; beyond the
-// ends, the outermost. A torque has its point too (Load::point), which on a rigid link makes no
-// difference. Loads that follow the link follow the element. Other links are untouched.
+// the link (joints, ends of closures, loads, springs, chosen points) goes to the element whose span
+// holds the projection of its point on the beam; where two spans meet, the one towards `end`;
+// beyond the ends, the outermost. A torque has its point too (Load::point), which on a rigid link
+// makes no difference. Loads that follow the link follow the element. Other links are untouched.
 // Precondition: check(linkage) is empty.
 Linkage expand_flexible_links(const Linkage& linkage);
 

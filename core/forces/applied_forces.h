@@ -4,31 +4,10 @@
 #pragma once
 
 #include "core/forces/contact_forces.h"
-#include "core/laws/course.h"
+#include "core/forces/course_value.h"
+#include "core/forces/point_springs.h"
 
 namespace linkstudy {
-
-// Amplitude of a load at time t, N or N m.
-template <class Real>
-inline Real course_value(const LoadStructure& s, const LoadParameters<Real>& n,
-                         const SegmentParameters<Real>* segments, Real t) {
-  switch (s.course) {
-    case CourseShape::constant:
-      return n.value;
-    case CourseShape::ramp:
-      return n.value * ramp_course(t, n.rate);
-    case CourseShape::smooth:
-      return n.value * smooth_course(t, n.rate);
-    case CourseShape::table:
-      break;
-  }
-  Real value = n.value;
-  for (int i = s.table_begin; i < s.table_end; ++i) {
-    const SegmentParameters<Real>& g = segments[i];
-    value = value + linear_segment(t, g.begin, g.length, g.slope);
-  }
-  return value;
-}
 
 template <class Real>
 inline void add_drive(const LoadStructure& s, Real value, const Real* v, Workspace<Real>& w) {
@@ -121,6 +100,7 @@ inline void update_applied_forces(const Mechanism& m, const Parameters<Real>& p,
   add_loads(m, p, t, v, w);
   add_joint_springs(m, p, q, v, w);
   add_sdes(m, p, w);
+  add_point_springs(m, p, t, w);
   add_contacts(m, p, w);
 }
 

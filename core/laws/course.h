@@ -2,7 +2,7 @@
 // are our assumptions). Values in N or N m.
 #pragma once
 
-#include "core/base/real.h"
+#include "core/laws/piecewise_linear.h"
 
 namespace linkstudy {
 
@@ -17,12 +17,6 @@ template <class Real>
 inline Real smooth_course(Real t, Real rate) {
   const Real s = ramp_course(t, rate);
   return s * s * madd(Real(-2.0), s, Real(3.0));
-}
-
-// One segment of a piecewise linear course: slope * clamp(t - begin, 0, length).
-template <class Real>
-inline Real linear_segment(Real t, Real begin, Real length, Real slope) {
-  return slope * min(max(t - begin, Real(0.0)), length);
 }
 
 // t_res = value * (v / v0)

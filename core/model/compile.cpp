@@ -5,6 +5,8 @@
 
 #include "core/model/closure_rows.h"
 #include "core/model/compile_motion.h"
+#include "core/model/compile_springs.h"
+#include "core/model/piecewise.h"
 #include "core/model/shapes.h"
 
 namespace linkstudy {
@@ -122,6 +124,7 @@ class Compiler {
       compile_motion(motion, body_on(motion.joint), model_);
     }
     for (const Coupling& coupling : linkage_.couplings) add_coupling(coupling);
+    for (const PointSpring& spring : linkage_.springs) add_spring(spring);
     for (const ChosenPoint& point : linkage_.points) add_point(point);
     return std::move(model_);
   }
@@ -418,14 +421,13 @@ class Compiler {
 
   void add_load(const Load& load) {
     Mechanism& m = mechanism();
-    LoadStructure s{.type = load.type,
-                    .follows_link = load.follows_link,
-                    .course = load.course.shape,
-                    .law = load.law.shape};
-    LoadParameters<double> p{load.course.value, 0.0, {}, {}};
-    const bool rises = s.course == CourseShape::ramp || s.course == CourseShape::smooth;
-    if (rises && load.course.duration > 0.0) p.rate = 1.0 / load.course.duration;
-    if (rises && load.course.duration == 0.0) s.course = CourseShape::constant;
+    LoadStructure s{.type = load.type, .follows_link = load.follows_link, .law = load.law.shape};
+    LoadParameters<double> p{};
+    if (load.type != LoadType::resistance) {
+      const CourseNumbers course = add_course(load.course, s, m, parameters());
+      p.value = course.value;
+      p.rate = course.rate;
+    }
     if (load.type == LoadType::drive || load.type == LoadType::resistance) {
       s.v = body_on(load.joint).v_begin + load.coordinate;
     }
@@ -436,35 +438,30 @@ class Compiler {
     if (load.type == LoadType::link_force || load.type == LoadType::link_torque) {
       s.body = body_of_.at(load.link);
       const Frame& f = link_frames_[static_cast<std::size_t>(s.body)];
-      p.point = to_vec3(f.rotation * load.point + f.position);
+      p.point = point_in_body(s.body, load.point);
       const Eigen::Vector3d e = load.direction.normalized();
       p.direction = to_vec3(load.follows_link ? Eigen::Vector3d(f.rotation * e) : e);
     }
-    const bool has_course = load.type != LoadType::resistance;
-    if (has_course && s.course == CourseShape::table) add_table(load.course, s, p);
     m.loads.push_back(s);
     parameters().loads.push_back(p);
   }
 
-  // A start value and one segment for each interval.
-  void add_table(const Course& course, LoadStructure& s, LoadParameters<double>& p) {
-    s.table_begin = mechanism().table_segments;
-    for (std::size_t i = 1; i < course.times.size(); ++i) {
-      const double length = course.times[i] - course.times[i - 1];
-      const double rise = course.values[i] - course.values[i - 1];
-      parameters().segments.push_back({course.times[i - 1], length, rise / length});
-      ++mechanism().table_segments;
-    }
-    s.table_end = mechanism().table_segments;
-    p.value = course.values.front();
+  Vec3<double> point_in_body(int body, const Eigen::Vector3d& position) const {
+    const Frame& f = link_frames_[static_cast<std::size_t>(body)];
+    return to_vec3(f.rotation * position + f.position);
+  }
+
+  void add_spring(const PointSpring& spring) {
+    const int first = body_of_.at(spring.first.link), second = body_of_.at(spring.second.link);
+    add_point_spring(spring, {first, point_in_body(first, spring.first.position)},
+                     {second, point_in_body(second, spring.second.position)}, model_);
   }
 
   void add_point(const ChosenPoint& point) {
     const int body = body_of_.at(point.link);
-    const Frame& f = link_frames_[static_cast<std::size_t>(body)];
     mechanism().point_bodies.push_back(body);
     mechanism().point_names.push_back(point.name);
-    parameters().points.push_back(to_vec3(f.rotation * point.position + f.position));
+    parameters().points.push_back(point_in_body(body, point.position));
   }
 
   const Linkage& linkage_;

@@ -130,6 +130,26 @@ struct JointSpring {
   bool operator==(const JointSpring&) const = default;
 };
 
+// Segments of a piecewise linear force in Parameters::segments; none: the force is linear.
+struct CurveStructure {
+  int begin = 0, end = 0;
+  bool is_linear() const { return begin == end; }
+  bool operator==(const CurveStructure&) const = default;
+};
+
+// Spring, damper and actuator between a point of each of two bodies.
+struct PointSpringStructure {
+  int first = 0, second = 0;  // bodies
+  SpringActs acts = SpringActs::both;
+  CurveStructure curve;
+  bool is_driven = false;  // has an actuator
+  CourseShape course = CourseShape::constant;
+  int table_begin = 0, table_end = 0;  // segments of a table course
+  // Stiffness and damping are the same at every length.
+  bool is_linear() const { return acts == SpringActs::both && curve.is_linear(); }
+  bool operator==(const PointSpringStructure&) const = default;
+};
+
 // Clearance of a revolute closure: its contacts, and which end is the bearing.
 struct ClearanceStructure {
   int closure;
@@ -224,6 +244,7 @@ struct MechanismStructure {
   std::vector<int> support;
   std::vector<LoadStructure> loads;
   std::vector<JointSpring> joint_springs;
+  std::vector<PointSpringStructure> point_springs;
   std::vector<ClearanceStructure> clearances;
   std::vector<ContactStructure> contacts;  // clearance by clearance
   std::vector<JointFrictionStructure> frictions;
@@ -247,6 +268,7 @@ struct MechanismStructure {
   int sde_row_count() const { return static_cast<int>(sde_rows.size()); }
   int contact_count() const { return static_cast<int>(contacts.size()); }
   int friction_count() const { return static_cast<int>(frictions.size()); }
+  int point_spring_count() const { return static_cast<int>(point_springs.size()); }
 };
 
 struct Mechanism : MechanismStructure {
@@ -257,6 +279,7 @@ struct Mechanism : MechanismStructure {
   std::vector<std::string> link_names;      // by body
   std::vector<std::string> joint_names;     // by body; [0] empty
   std::vector<std::string> closure_names;   // by closure
+  std::vector<std::string> spring_names;    // by spring between points
   std::vector<std::string> motion_names;    // by motion
   std::vector<std::string> coupling_names;  // by coupling
   std::vector<std::string> point_names;     // by chosen point

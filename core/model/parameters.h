@@ -41,7 +41,15 @@ struct LoadParameters {
 
 template <class Real>
 struct SegmentParameters {
-  Real begin, length, slope;  // of a table course
+  Real begin, length, slope;  // of a table course, or a force over a length or coordinate
+};
+
+// Where a piecewise linear force begins.
+template <class Real>
+struct CurveParameters {
+  Real begin;   // first point, m or rad
+  Real value;   // force there, N or N m
+  Real energy;  // stored there, J: the least between the first point and the last is zero
 };
 
 template <class Real>
@@ -52,6 +60,16 @@ struct SpringParameters {
 template <class Real>
 struct JointSpringParameters {
   Real stiffness, damping, rest;
+};
+
+template <class Real>
+struct PointSpringParameters {
+  Vec3<Real> point_1, point_2;  // internal frames, m
+  Real stiffness, damping;      // N/m, N s/m
+  Real free_length;             // m
+  CurveParameters<Real> curve;  // in place of stiffness and free length
+  Real value;                   // of the actuator: amplitude, N
+  Real rate;                    // 1 / duration
 };
 
 template <class Real>
@@ -82,6 +100,7 @@ struct Parameters {
   std::vector<SpringParameters<Real>> springs;  // (ns)
   std::vector<LoadParameters<Real>> loads;
   std::vector<JointSpringParameters<Real>> joint_springs;
+  std::vector<PointSpringParameters<Real>> point_springs;
   std::vector<ClearanceParameters<Real>> clearances;
   std::vector<JointFrictionParameters<Real>> frictions;
   std::vector<SegmentParameters<Real>> segments;

@@ -71,6 +71,15 @@ struct ContactMemory {
   Real least_depth = Real(0.0);  // no force below: infinity where a located run holds it open
 };
 
+// The line of a spring between two points, and its force.
+template <class Real>
+struct PointSpringState {
+  Vec3<Real> arm_1, arm_2;  // from the origins of the bodies to the points
+  Real length, rate;        // m, m/s
+  Real elastic, force;      // f_e, and all with the actuator's, N: positive together
+  Vec3<Real> pull;          // on the first body, its opposite on the second
+};
+
 // Friction in a tree joint: normal load, sliding velocity, coefficient and generalised force, each
 // along the turn and along the slide.
 template <class Real>
@@ -134,6 +143,8 @@ struct Workspace {
   std::vector<Real> row_inverse;         // (nc) 1 / pivot of the factor
   std::vector<ContactState<Real>> contacts;
   std::vector<ContactMemory<Real>> memory;
+  std::vector<PointSpringState<Real>> point_springs;
+  std::vector<Real> spring_weights;  // (point springs) core/forces/point_springs.h
   std::vector<JointFrictionState<Real>> frictions;
   std::vector<Real> friction_tau;               // (nv) of joints with friction
   std::vector<Real> friction_inverse;           // of d gap / d load, negative
@@ -214,6 +225,8 @@ Workspace<Real> make_workspace(const Mechanism& m) {
   w.link_loads.resize(m.loads.size());
   w.contacts.resize(m.contacts.size());
   w.memory.resize(m.contacts.size());
+  w.point_springs.resize(m.point_springs.size());
+  w.spring_weights.assign(m.point_springs.size(), Real(0.0));
   w.frictions.resize(m.frictions.size());
   w.friction_inverse.resize(m.frictions.size() * m.frictions.size());
   w.friction_tau.assign(m.frictions.empty() ? 0 : nv, Real(0.0));

@@ -69,6 +69,13 @@ constexpr std::array kKinds = {
     ChannelKind{Quantity::coupling_effort, "coupling", "effort", "", "N m|N", "",
                 "times the factor of a term: the generalised force that the coupling puts on its "
                 "coordinate; the teeth of a gear pair press with effort / radius"},
+    ChannelKind{Quantity::spring_length, "spring", "length", "", "m", "",
+                "distance of the two points"},
+    ChannelKind{Quantity::spring_rate, "spring", "rate", "", "m/s", "",
+                "rate of the length, positive where the points move apart"},
+    ChannelKind{Quantity::spring_force, "spring", "force", "", "N", "",
+                "force of spring, damper and actuator along the line, positive where it pulls the "
+                "points together"},
     ChannelKind{Quantity::point_position, "point", "position", kVector, "m", "",
                 "position from the ground's origin, ground axes"},
     ChannelKind{Quantity::point_velocity, "point", "velocity", kVector, "m/s", "",

@@ -13,7 +13,7 @@ namespace linkstudy {
 
 struct ChannelKind {
   Quantity quantity;
-  std::string_view owner;    // "joint", "closure", "point", "energy"; empty for the time
+  std::string_view owner;    // "joint", "closure", "spring", "point", "energy"; empty for the time
   std::string_view label;    // last part of the name: "force"
   std::string_view members;  // "x|y|z", "x|y", "i", "[i]" (where there are several), or empty
   std::string_view unit;     // "rad|m" where the coordinate decides; empty for pure numbers
@@ -36,7 +36,7 @@ std::string describe_channel(const Mechanism& mechanism, const Channel& channel)
 bool is_in_group(const std::string& channel, const std::string& group);
 
 // The channels that find_channels gives, or else everything under a name: "joint.A", "closure.S",
-// "point.tip", "energy".
+// "spring.C", "point.tip", "energy".
 std::vector<Channel> find_channel_group(const std::vector<Channel>& all, const std::string& group);
 
 }  // namespace linkstudy

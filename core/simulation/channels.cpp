@@ -32,6 +32,7 @@ class Lister {
     }
     for (std::size_t i = 0; i < m_.motions.size(); ++i) add_motion(i);
     for (std::size_t i = 0; i < m_.couplings.size(); ++i) add_coupling(i);
+    for (std::size_t i = 0; i < m_.spring_names.size(); ++i) add_spring(i);
     for (std::size_t i = 0; i < m_.point_bodies.size(); ++i) add_point(i);
     for (const ChannelKind& kind : channel_kinds()) {
       if (kind.owner == "energy") add("energy", kind.quantity, 0);
@@ -79,6 +80,13 @@ class Lister {
     const RowKind kind = m_.cut_rows[static_cast<std::size_t>(m_.couplings[i].row)].kind;
     add("coupling." + m_.coupling_names[i], Quantity::coupling_effort, static_cast<int>(i),
         {.unit = kind == RowKind::coupling_turn ? "N m" : "N"});
+  }
+
+  void add_spring(std::size_t i) {
+    const std::string name = "spring." + m_.spring_names[i];
+    for (const ChannelKind& kind : channel_kinds()) {
+      if (kind.owner == "spring") add(name, kind.quantity, static_cast<int>(i));
+    }
   }
 
   void add_point(std::size_t i) {

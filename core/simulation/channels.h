@@ -32,6 +32,9 @@ enum class Quantity : std::uint8_t {
   motion_effort,
   motion_power,
   coupling_effort,
+  spring_length,
+  spring_rate,
+  spring_force,
   point_position,
   point_velocity,
   point_acceleration,
@@ -46,8 +49,9 @@ struct Channel {
   std::string name;
   std::string unit;
   Quantity quantity;
-  int index = 0;      // coordinate, body, closure, clearance, contact, bristle, friction, motion,
-                      // coupling or point
+  // coordinate, body, closure, clearance, contact, bristle, friction, motion, coupling, spring,
+  // point
+  int index = 0;
   int component = 0;  // 0 1 2 for x y z
   int body = 0;       // that carries a point
 };

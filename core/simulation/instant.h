@@ -76,6 +76,12 @@ class Instant {
         return -at(w_.cut_rows, at(m_.couplings, c.index).row).value;
       case Quantity::motion_power:
         return at(w_.efforts, c.index) * at(w_.motions, c.index).v;
+      case Quantity::spring_length:
+        return at(w_.point_springs, c.index).length;
+      case Quantity::spring_rate:
+        return at(w_.point_springs, c.index).rate;
+      case Quantity::spring_force:
+        return at(w_.point_springs, c.index).force;
       case Quantity::point_position:
       case Quantity::point_velocity:
       case Quantity::point_acceleration:

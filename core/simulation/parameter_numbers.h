@@ -17,6 +17,7 @@ inline void for_parameter_lists(F&& f, P&... p) {
   f(p.springs...);
   f(p.loads...);
   f(p.joint_springs...);
+  f(p.point_springs...);
   f(p.clearances...);
   f(p.frictions...);
   f(p.segments...);

@@ -27,6 +27,7 @@ constexpr double kLargeTurn = 150.0;         // deg
 constexpr double kVelocityTolerance = 1e-6;  // of the largest velocity
 constexpr double kStatedVelocity = 1e-3;     // of the largest: stated ones are rounded
 constexpr double kSlightEffort = 1e-9;       // of the largest weight or load
+constexpr double kSlightForce = 1e-6;        // N
 constexpr double kPressed = 0.05;  // of the clearance: a journal that rests on its bearing
 
 std::string number(double x) {
@@ -364,6 +365,23 @@ void warn_of_tilt(const Linkage& linkage, Preparation& p) {
   }
 }
 
+// Its direction is not known where it begins.
+void warn_of_shut_springs(const Linkage& linkage, Preparation& p) {
+  const Mechanism& m = p.model.mechanism;
+  if (m.point_springs.empty()) return;
+  Workspace<double> w = make_workspace<double>(m);
+  compute_motion(m, p.model.parameters, p.model.start, w);
+  for (std::size_t i = 0; i < linkage.springs.size(); ++i) {
+    const PointSpringState<double>& x = w.point_springs[i];
+    if (x.length > kClosedTolerance || std::abs(x.force) <= kSlightForce) continue;
+    p.warnings.push_back("spring '" + linkage.springs[i].name +
+                         "': its points coincide at the start, where its force of " +
+                         number(x.force) +
+                         " N has no direction; where they coincide exactly, "
+                         "none acts: place its ends apart");
+  }
+}
+
 }  // namespace
 
 Preparation prepare(const Linkage& linkage, const SimulationOptions& options) {
@@ -388,6 +406,7 @@ Preparation prepare(const Linkage& linkage, const SimulationOptions& options) {
   warn_of_step(options, p);
   warn_of_tilt(linkage, p);
   warn_of_large_turn(linkage, p);
+  warn_of_shut_springs(linkage, p);
   return p;
 }
 

@@ -5,7 +5,8 @@
 //   memories, their steps,
 //           their log, greatest drift
 //   writes  the state after the step; a mask, true in the lanes for which all is well; contacts and
-//           joint friction before the step, and the channels that observers look at
+//           joint friction before the step, what springs weigh, and the channels that observers
+//           look at
 #pragma once
 
 #include <cstddef>
@@ -42,6 +43,7 @@ template <class Real, class W, class F>
 inline void for_kept_numbers(W& w, F&& f) {
   f(numbers_in<Real>(w.contacts), number_count<Real>(w.contacts));
   f(numbers_in<Real>(w.frictions), number_count<Real>(w.frictions));
+  f(numbers_in<Real>(w.spring_weights), number_count<Real>(w.spring_weights));
 }
 
 }  // namespace linkstudy

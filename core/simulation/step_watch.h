@@ -42,7 +42,7 @@ class StepWatch {
   // An accepted state and its evaluation, in the lanes that still run.
   void see(long step, double t, const Real* y, const Workspace<Real>& w, unsigned active) {
     if (step == next_) look_evenly(step, t, y, w, active);
-    if (m_.friction_count() + m_.contact_count() == 0) return;
+    if (look_count(m_) == kEvenLooks) return;
     const auto right = bent(y + m_.nq + m_.nv) <= Real(kRight);
     Real rate(0.0);
     const auto note = [&](int n, Real load) {
@@ -62,6 +62,10 @@ class StepWatch {
       const int n = m_.friction_count() + 2 * i;
       note(n, s.elastic);
       note(n + 1, s.elastic * law.damping / max(s.approach, law.least_speed));
+    }
+    for (const int i : indices_of(m_.point_springs)) {
+      if (at(m_.point_springs, i).is_linear()) continue;
+      note(m_.friction_count() + 2 * m_.contact_count() + i, at(w.spring_weights, i));
     }
     const auto faster = right && rate > rate_;
     rate_ = select(faster, rate, rate_);
@@ -125,7 +129,7 @@ class StepWatch {
   const LaneCase* cases_;
   int count_;
   long stride_, next_;          // steps between even looks, step of the next
-  std::vector<Real> heaviest_;  // by joint with friction, then two a contact
+  std::vector<Real> heaviest_;  // by joint with friction, then two a contact, then by spring
   std::vector<Real> inverse_bound_;
   Real rate_ = Real(0.0), rate_time_ = Real(0.0);
 };

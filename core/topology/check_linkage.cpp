@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/topology/check_motion.h"
+#include "core/topology/check_spring.h"
 #include "core/topology/check_values.h"
 #include "core/topology/flexible_beam.h"
 #include "core/topology/nearest_name.h"
@@ -31,6 +32,7 @@ class Checker {
     check_names("load", linkage_.loads);
     check_names("motion", linkage_.motions);
     check_names("coupling", linkage_.couplings);
+    check_names("spring", linkage_.springs);
     check_names("point", linkage_.points);
     check_link_values();
     check_element_names();
@@ -40,6 +42,7 @@ class Checker {
     check_loads();
     check_motions();
     check_couplings();
+    check_springs();
     check_points();
     return std::move(problems_);
   }
@@ -236,19 +239,7 @@ class Checker {
       const std::string path = path_of("closure", linkage_.closures, i);
       const std::string who = "closure " + quoted(closure.name);
       check_closure(closure, path, problems_);
-      const bool first_is_known = is_body(closure.first.link);
-      const bool second_is_known = is_body(closure.second.link);
-      if (!first_is_known) {
-        report_unknown_link(path + ".first.link", who, "first.link", closure.first.link);
-      }
-      if (!second_is_known) {
-        report_unknown_link(path + ".second.link", who, "second.link", closure.second.link);
-      }
-      if (first_is_known && second_is_known && closure.first.link == closure.second.link) {
-        report(path + ".second.link",
-               who + ": both ends are on the same link '" + closure.second.link + "'",
-               "a closure connects two different links");
-      }
+      check_ends(closure, path, who, "a closure connects two different links");
     }
   }
 
@@ -357,6 +348,34 @@ class Checker {
       if (&*same == &motion) continue;
       report(path + ".joint", who + ": motion " + quoted(same->name) + " moves the same coordinate",
              "leave one of them out");
+    }
+  }
+
+  void check_springs() {
+    for (std::size_t i = 0; i < linkage_.springs.size(); ++i) {
+      const PointSpring& spring = linkage_.springs[i];
+      const std::string path = path_of("spring", linkage_.springs, i);
+      const std::string who = "spring " + quoted(spring.name);
+      check_point_spring(spring, path, problems_);
+      check_ends(spring, path, who, "a spring acts between points of two different links");
+    }
+  }
+
+  // Of a closure or spring: two links that exist.
+  template <class Record>
+  void check_ends(const Record& record, const std::string& path, const std::string& who,
+                  const char* remedy) {
+    const bool first_is_known = is_body(record.first.link);
+    const bool second_is_known = is_body(record.second.link);
+    if (!first_is_known) {
+      report_unknown_link(path + ".first.link", who, "first.link", record.first.link);
+    }
+    if (!second_is_known) {
+      report_unknown_link(path + ".second.link", who, "second.link", record.second.link);
+    }
+    if (first_is_known && second_is_known && record.first.link == record.second.link) {
+      report(path + ".second.link",
+             who + ": both ends are on the same link '" + record.second.link + "'", remedy);
     }
   }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/topology/check_contact.h"
+#include "core/topology/check_course.h"
 #include "core/topology/check_flexible.h"
 #include "core/topology/linkage_words.h"
 #include "core/topology/record_check.h"
@@ -119,26 +120,6 @@ void check_sde(const Closure& closure, RecordCheck& record) {
   }
 }
 
-void check_table(const Course& course, RecordCheck& record) {
-  if (course.times.empty() || course.times.size() != course.values.size()) {
-    record.report("course.values",
-                  "course.times and course.values must have the same length, got " +
-                      std::to_string(course.times.size()) + " and " +
-                      std::to_string(course.values.size()),
-                  "give one value for each time");
-  }
-  for (std::size_t i = 1; i < course.times.size(); ++i) {
-    if (course.times[i] > course.times[i - 1]) continue;
-    record.report("course.times." + std::to_string(i),
-                  "course.times must increase, got " + text_of(course.times[i]) + " after " +
-                      text_of(course.times[i - 1]),
-                  "sort the table by time, each time once");
-    break;
-  }
-  record.require_finite("course.times", all_finite(course.times));
-  record.require_finite("course.values", all_finite(course.values));
-}
-
 }  // namespace
 
 std::string inertia_fault(const Eigen::Matrix3d& inertia) {
@@ -226,14 +207,7 @@ void check_load(const Load& load, const std::string& path, std::vector<Problem>&
     record.require_unit("direction", load.direction.norm());
     record.require_finite("point", load.point.allFinite());
   }
-  const CourseShape shape = load.course.shape;
-  if (shape == CourseShape::table) {
-    check_table(load.course, record);
-    return;
-  }
-  record.require_finite("course.value", std::isfinite(load.course.value));
-  if (shape != CourseShape::constant)
-    record.require_positive("course.duration", load.course.duration);
+  check_course(load.course, record);
 }
 
 void check_point(const ChosenPoint& point, const std::string& path,

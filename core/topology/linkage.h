@@ -1,7 +1,7 @@
 // A linkage as its designer describes it: links, the joints of a spanning tree, the closures that
-// make loops, loads, and points to watch. Plain records with names; no state and no algorithms.
-// Units: SI and radians. Frames: right-handed, fixed in the link that is named beside them.
-// Source: topologies of [AugUrb18] fig. 1; closures of [Urbas16] sec. 2-4.
+// make loops, loads, springs between points, and points to watch. Plain records with names; no
+// state and no algorithms. Units: SI and radians. Frames: right-handed, fixed in the link that is
+// named beside them. Source: topologies of [AugUrb18] fig. 1; closures of [Urbas16] sec. 2-4.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,6 +12,7 @@
 
 #include "core/laws/contact_law.h"
 #include "core/laws/motion_law.h"
+#include "core/laws/spring_acts.h"
 
 namespace linkstudy {
 
@@ -255,7 +256,7 @@ unsigned blocked_directions(JointType type);
 // the ones its type blocks; none with SdeStart::given. Three springs count in their own directions.
 unsigned shut_directions(const Closure& closure);
 
-// Course of a drive over time, value * f(t / duration): ramp f = min(s, 1); smooth
+// Course of a drive or actuator over time, value * f(t / duration): ramp f = min(s, 1); smooth
 // f = 3 s^2 - 2 s^3; constant f = 1; table: linear interpolation of (times, values), ends held.
 enum class CourseShape { constant, ramp, smooth, table };
 struct Course {
@@ -336,6 +337,39 @@ struct Coupling {
   bool operator==(const Coupling&) const = default;
 };
 
+// A force piecewise linear over a length or a coordinate, constant beyond the first and the last
+// point.
+struct ForceCurve {
+  std::vector<double> at;     // increasing, m or rad
+  std::vector<double> force;  // N or N m
+
+  bool operator==(const ForceCurve&) const = default;
+};
+
+struct SpringEnd {
+  std::string link;                                    // a link or kGround
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // in the link frame, m
+
+  bool operator==(const SpringEnd&) const = default;
+};
+
+// Spring, damper and actuator along the line between two points; no mass. Its force is positive
+// where it pulls the points together: that of spring and damper (core/laws/spring_force.h) over the
+// length l of the line, f_e = stiffness (l - free_length) or the curve, and the actuator's. Where
+// the points coincide the line has no direction, and no force acts.
+struct PointSpring {
+  std::string name;
+  SpringEnd first, second;
+  double stiffness = 0.0;              // k, N/m
+  double damping = 0.0;                // b, N s/m
+  std::optional<double> free_length;   // l_0, m; where stiffness or one-sided damping ask for it
+  SpringActs acts = SpringActs::both;  // spring and damper, not the actuator
+  std::optional<ForceCurve> force;     // in place of stiffness and free_length
+  std::optional<Course> course;        // of the actuator, N
+
+  bool operator==(const PointSpring&) const = default;
+};
+
 // A point of a link whose motion is asked for; it takes no part in the dynamics.
 struct ChosenPoint {
   std::string name;
@@ -354,6 +388,7 @@ struct Linkage {
   std::vector<Load> loads;
   std::vector<Motion> motions;
   std::vector<Coupling> couplings;
+  std::vector<PointSpring> springs;
   std::vector<ChosenPoint> points;
 
   bool operator==(const Linkage&) const = default;

@@ -46,36 +46,6 @@ void leave_unknown_course(Load& load, Tree& course, const Reading&) {
   }
 }
 
-Fields<Course> course_fields() {
-  using enum CourseShape;
-  Fields<Course> course;
-  course.add("shape", &Course::shape, {});
-  course.add("value", &Course::value,
-             {.meaning = "final value",
-              .unit = "N|N m",
-              .required = true,
-              .only = only_where("shape", {ramp, smooth, constant}),
-              .units_by = course_units});
-  course.add("duration", &Course::duration,
-             {.meaning = "time to full value",
-              .unit = "s",
-              .range = kPositive,
-              .required = true,
-              .only = only_where("shape", {ramp, smooth})});
-  course.add("times", &Course::times,
-             {.meaning = "times, increasing",
-              .unit = "s",
-              .required = true,
-              .only = only_where("shape", {CourseShape::table})});
-  course.add("values", &Course::values,
-             {.meaning = "values at times; linear between, held outside",
-              .unit = "N|N m",
-              .required = true,
-              .only = only_where("shape", {CourseShape::table}),
-              .units_by = course_units});
-  return course;
-}
-
 Fields<ResistanceLaw> law_fields() {
   Fields<ResistanceLaw> law;
   law.add("shape", &ResistanceLaw::shape, {});
@@ -155,6 +125,36 @@ void add_place(Fields<Load>& load) {
 
 }  // namespace
 
+Fields<Course> course_fields(const std::string& unit, const UnitsBy& units_by) {
+  using enum CourseShape;
+  Fields<Course> course;
+  course.add("shape", &Course::shape, {});
+  course.add("value", &Course::value,
+             {.meaning = "final value",
+              .unit = unit,
+              .required = true,
+              .only = only_where("shape", {ramp, smooth, constant}),
+              .units_by = units_by});
+  course.add("duration", &Course::duration,
+             {.meaning = "time to full value",
+              .unit = "s",
+              .range = kPositive,
+              .required = true,
+              .only = only_where("shape", {ramp, smooth})});
+  course.add("times", &Course::times,
+             {.meaning = "times, increasing",
+              .unit = "s",
+              .required = true,
+              .only = only_where("shape", {CourseShape::table})});
+  course.add("values", &Course::values,
+             {.meaning = "values at times; linear between, held outside",
+              .unit = unit,
+              .required = true,
+              .only = only_where("shape", {CourseShape::table}),
+              .units_by = units_by});
+  return course;
+}
+
 Fields<Load> load_fields() {
   using enum LoadKind;
   Fields<Load> load;
@@ -165,7 +165,7 @@ Fields<Load> load_fields() {
              {.meaning = "course over time",
               .required = true,
               .only = only_where("type", {torque, force, link_force, link_torque})},
-             course_fields(), leave_unknown_course);
+             course_fields("N|N m", course_units), leave_unknown_course);
   load.table("law", &Load::law,
              {.meaning = "law of the resistance",
               .required = true,

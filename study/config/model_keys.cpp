@@ -103,6 +103,10 @@ Fields<Linkage> linkage_fields() {
                  {.meaning = "linear relations between coordinates, held exactly (gears, racks, "
                              "belts, differentials): channel coupling.NAME.effort"},
                  coupling_fields());
+  linkage.tables("spring", &Linkage::springs,
+                 {.meaning = "springs, dampers and actuators along the line between two points, "
+                             "channels spring.NAME.length, rate, force"},
+                 point_spring_fields());
   linkage.tables("point", &Linkage::points,
                  {.meaning = "points to watch, channels point.NAME.position, velocity, "
                              "acceleration; of no effect on the motion"},

@@ -29,10 +29,16 @@ Fields<FlexibleBeam> flexible_fields();
 Fields<Clearance> clearance_fields();
 Fields<Clearance> contact_fields();
 
-// [[joint]], [[closure]], [[load]], [[motion]], [[coupling]], [simulation], [kinematics].
+// A course over time of values in this unit.
+using UnitsBy = std::function<std::vector<std::string>(const Tree& document, const Tree& element)>;
+Fields<Course> course_fields(const std::string& unit, const UnitsBy& units_by);
+
+// [[joint]], [[closure]], [[load]], [[spring]], [[motion]], [[coupling]], [simulation],
+// [kinematics].
 Fields<Joint> joint_fields();
 Fields<Closure> closure_fields();
 Fields<Load> load_fields();
+Fields<PointSpring> point_spring_fields();
 Fields<Motion> motion_fields();
 Fields<Coupling> coupling_fields();
 Fields<SimulationOptions> simulation_fields();

@@ -16,7 +16,10 @@ std::vector<Channel> static_channels(const Mechanism& mechanism) {
         channel.quantity == Quantity::q || channel.quantity == Quantity::joint_force ||
         channel.quantity == Quantity::joint_torque || channel.quantity == Quantity::closure_force ||
         channel.quantity == Quantity::closure_torque || channel.quantity == Quantity::closure_gap ||
-        channel.quantity == Quantity::motion_effort || channel.quantity == Quantity::point_position;
+        channel.quantity == Quantity::motion_effort ||
+        channel.quantity == Quantity::coupling_effort ||
+        channel.quantity == Quantity::spring_length || channel.quantity == Quantity::spring_force ||
+        channel.quantity == Quantity::point_position;
     if (is_wanted) channels.push_back(channel);
   }
   return channels;

@@ -22,7 +22,7 @@ struct StaticValue {
 std::vector<std::string> take_statics(ModelInput& input);
 
 // Coordinates, reactions, holding efforts ("joint.P.hold", "joint.U.hold.1": along the coordinate,
-// on the child), closures and points.
+// on the child), closures, springs and points.
 std::vector<StaticValue> equilibrium_values(const Preparation& preparation,
                                             SimulationOptions options);
 

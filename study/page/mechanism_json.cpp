@@ -45,6 +45,7 @@ class Scene {
             {"links", links()},
             {"joints", joints()},
             {"closures", closures()},
+            {"springs", springs()},
             {"points", points()},
             {"times", base64_floats(run_.times)},
             {"poses", base64_floats(poses)}};
@@ -92,6 +93,18 @@ class Scene {
                      {"second", number_of(closure.second.link)},
                      {"first_frame", frame_of(closure.first.frame)},
                      {"second_frame", frame_of(closure.second.frame)}});
+    }
+    return all;
+  }
+
+  Json springs() const {
+    Json all = Json::array();
+    for (const PointSpring& spring : run_.linkage.springs) {
+      all.push_back({{"name", spring.name},
+                     {"first", number_of(spring.first.link)},
+                     {"second", number_of(spring.second.link)},
+                     {"first_position", vector_of(spring.first.position)},
+                     {"second_position", vector_of(spring.second.position)}});
     }
     return all;
   }

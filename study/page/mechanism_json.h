@@ -15,6 +15,7 @@ namespace linkstudy {
 //              "bends": between two elements of a flexible link; unbent, its frames coincide}],
 //  "closures": [{"name", "type", "model", "radial": clearance in m or null, "first", "second",
 //                "first_frame", "second_frame"}],
+//  "springs": [{"name", "first", "second", "first_position", "second_position"}],
 //  "points": [{"name", "link", "position"}], "times", "poses"}
 // Links are numbers in "links". A frame is [x, y, z, qw, qx, qy, qz]. Poses: 32-bit numbers in
 // base64, seven a link as in a frame, link by link, instant by instant; m.

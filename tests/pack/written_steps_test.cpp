@@ -139,6 +139,49 @@ TEST(WrittenSteps, Of_cut_and_replacement_joints_have_them_over_ten_thousand_ste
   EXPECT_EQ(written_report().untraceable, 0) << written_report().why;
 }
 
+// One-sided springs, tables and actuators, on lanes that are slack beside lanes that are taut.
+TEST(WrittenSteps, Of_springs_between_points_have_them_while_they_come_and_go) {
+  if (!machine_has(InstructionSet::avx2)) GTEST_SKIP() << "no fused instructions here";
+  const SimdLevel level{InstructionSet::avx2, 4};
+  for (const ClosureModel closures : {ClosureModel::cut, ClosureModel::sde}) {
+    ModelInput input = read_model(source_file("configs/mechanisms/rsrrp.toml"));
+    set_closures(closures, input.linkage);
+    const auto spring = [&](const char* name, const Eigen::Vector3d& first, const char* link) {
+      PointSpring one;
+      one.name = name;
+      one.first = {kGround, first};
+      one.second = {link, {0.01, 0.09, 0.02}};
+      return one;
+    };
+    PointSpring rope = spring("rope", {0.1, 0.1, 0.0}, "crank");
+    rope.acts = SpringActs::tension;
+    rope.stiffness = 400.0;
+    rope.damping = 20.0;
+    rope.free_length = 0.12;
+    PointSpring table = spring("table", {0.0, -0.1, 0.3}, "coupler");
+    table.acts = SpringActs::compression;
+    table.force = ForceCurve{{0.1, 0.3, 0.35, 0.6}, {-90.0, -10.0, 5.0, 20.0}};
+    PointSpring cylinder = spring("cylinder", {0.3, 0.0, 0.2}, "crank");
+    cylinder.course = Course{CourseShape::table, 0.0, 0.0, {0.0, 0.2, 0.5}, {0.0, 30.0, -20.0}};
+    input.linkage.springs = {rope, table, cylinder};
+    input.options.end_time = 1e4 * input.options.step;
+    const Preparation p = prepare(input.linkage, input.options);
+    ASSERT_EQ(p.cause, Cause::ok) << p.message;
+    const Runs general = run(p.model, input.options, 5, 7, level, Kernels::general);
+    expect_same(run(p.model, input.options, 5, 7, level, Kernels::written), general);
+    const Series& kept = general.observers[0].series[0];
+    std::size_t column = 0;
+    while (kept.channels[column].name != "spring.rope.force") ++column;
+    int slack = 0, taut = 0;
+    for (std::size_t row = 0; row < kept.rows(); ++row) {
+      ++(kept.values[row * kept.channels.size() + column] > 0.0 ? taut : slack);
+    }
+    EXPECT_GT(slack, 10);
+    EXPECT_GT(taut, 10);
+  }
+  EXPECT_EQ(written_report().untraceable, 0) << written_report().why;
+}
+
 // A crank of next to no mass: the rows of the closure differ by many powers of ten, and the quick
 // factor refuses them.
 TEST(WrittenSteps, Give_way_to_the_general_loop_where_rows_are_nearly_dependent) {

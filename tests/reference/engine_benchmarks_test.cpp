@@ -2,10 +2,13 @@
 // benchmarks, slider position over a full turn.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "tests/mechanisms/four_bar.h"
+#include "tests/mechanisms/joint_at.h"
 #include "tests/mechanisms/n_four_bar.h"
 #include "tests/mechanisms/pendulum.h"
 #include "tests/mechanisms/rsrrp.h"
@@ -148,6 +151,84 @@ TEST(EngineBenchmarks, The_spatial_slider_crank_follows_the_published_series_wit
       EXPECT_NEAR(s.values(k, 1) + s.values(k, 2), kSpatialSliderCrankEnergy, 1e-6) << k;
     }
   }
+}
+
+namespace {
+
+// Seven plane links on pins along z; links in the order K1, K2, K3, K5, K4, K7, K6 (the data of the
+// shipped file, in which every number has its source).
+Linkage squeezer() {
+  const Eigen::Matrix3d across = Eigen::AngleAxisd(-M_PI / 2, Eigen::Vector3d::UnitY()).matrix();
+  Linkage s;
+  const auto add = [&](const std::string& joint, const std::string& parent,
+                       const Eigen::Vector3d& at, double angle, const Link& link) {
+    s.links.push_back(link);
+    Frame frame;
+    frame.position = at;
+    s.joints.push_back(pivot_at(joint, parent, link.name, frame, angle, 0.0));
+  };
+  const auto link = [](const char* name, double mass, double x, double y, double inertia) {
+    return Link{name, mass, {x, y, 0.0}, inertia * Eigen::Matrix3d::Identity(), {}};
+  };
+  add("O", kGround, {0, 0, 0}, -0.0617138900142764496, link("K1", 0.04325, 92e-5, 0, 2.194e-6));
+  add("K2", "K1", {7e-3, 0, 0}, 0.0, link("K2", 0.00365, -115e-4, 0, 4.410e-7));
+  add("B", kGround, {-0.03635, 0.03273, 0}, 0.455279819163070380,
+      link("K3", 0.02373, 1874e-5, -1043e-5, 5.255e-6));
+  add("A5", kGround, {-0.06934, -0.00227, 0}, 0.487364979543842550,
+      link("K5", 0.07050, 2308e-5, 916e-5, 1.169e-5));
+  add("E", "K5", {4e-2, 0, 0}, 0.222668390165885885, link("K4", 0.00706, 0, -579e-5, 5.667e-7));
+  add("A7", kGround, {-0.06934, -0.00227, 0}, 1.23054744454982119,
+      link("K7", 0.05498, 1228e-5, -449e-5, 1.912e-5));
+  add("G", "K7", {0, -4e-2, 0}, -0.222668390165885885, link("K6", 0.00706, 579e-5, 0, 5.667e-7));
+  const std::pair<const char*, Eigen::Vector3d> ends[] = {
+      {"K3", {0, -35e-3, 0}}, {"K4", {0, -2e-2, 0}}, {"K6", {2e-2, 0, 0}}};
+  for (const auto& [name, at] : ends) {
+    Closure pin;
+    pin.name = std::string("F") + name;
+    pin.type = JointType::revolute;
+    pin.stabilization = Stabilization::projection;
+    pin.first = {"K2", {across, {-28e-3, 0, 0}}};
+    pin.second = {name, {across, at}};
+    s.closures.push_back(pin);
+  }
+  PointSpring spring;
+  spring.name = "C";
+  spring.first = {kGround, {0.014, 0.072, 0.0}};
+  spring.second = {"K3", {2e-2, -18e-3, 0.0}};
+  spring.stiffness = 4530.0;
+  spring.free_length = 0.07785;
+  s.springs = {spring};
+  Load drive;
+  drive.name = "drive";
+  drive.joint = "O";
+  drive.course = {CourseShape::constant, 0.033, 0.0, {}, {}};
+  s.loads = {drive};
+  return s;
+}
+
+}  // namespace
+
+// IVP test set, Andrews' squeezing mechanism: angles after 0.03 s.
+TEST(EngineSqueezer, Ends_at_the_angles_of_the_ivp_test_set) {
+  SimulationOptions options = steps_of(1e-4, 0.03);
+  options.integrator = Integrator::adaptive;
+  options.relative_tolerance = 1e-12;
+  options.absolute_tolerance = 1e-13;
+  const Preparation p = prepare(squeezer(), options);
+  ASSERT_EQ(p.cause, Cause::ok) << p.message;
+  const SimulationOutcome end = run(p.model, options);
+  ASSERT_EQ(end.cause, Cause::ok) << end.message;
+  const std::pair<const char*, double> published[] = {
+      {"O", 15.81077119629904}, {"K2", -15.75637105984298}, {"B", 0.04082224013073},
+      {"E", -0.53473011632269}, {"A5", 0.52440996588053},   {"A7", 1.048080741042263},
+      {"G", 0.534730116322690}};
+  for (const auto& [joint, angle] : published) {
+    const auto& names = p.model.mechanism.joint_names;
+    const auto body = static_cast<std::size_t>(std::ranges::find(names, joint) - names.begin());
+    const auto q = static_cast<std::size_t>(p.model.mechanism.bodies[body].q_begin);
+    EXPECT_NEAR(end.final_state.q[q], angle, 1e-9) << joint;
+  }
+  EXPECT_LT(end.energy_residual_max, 1e-9 * end.energy_scale);
 }
 
 }  // namespace linkstudy::testing::engine_benchmarks_test

@@ -36,6 +36,7 @@ class Mechanism {
     stored.joints.forEach((joint) => this.addJoint(joint));
     this.rails = stored.joints.filter((joint) => kSliding.includes(joint.type))
       .map((joint) => this.addRail(joint));
+    this.springs = stored.springs.map((spring) => this.addSpring(spring));
     this.closures = stored.closures.map((closure) => this.addClosure(closure));
     this.reactions = this.times.length < 2 ? this.addReactions() : [];
     stored.points.forEach((point) => this.addPath(point));
@@ -45,7 +46,7 @@ class Mechanism {
   // Half of the diagonal of the box in which joints, centres of mass and points move.
   extent() {
     const box = new THREE.Box3();
-    const {joints, closures, links, points} = this.stored;
+    const {joints, closures, springs, links, points} = this.stored;
     const add = (link, place) => {
       for (let i = 0; i < this.times.length; i += Math.ceil(this.times.length / 60)) {
         box.expandByPoint(place.clone().applyMatrix4(this.poseAt(link, i)));
@@ -53,6 +54,10 @@ class Mechanism {
     };
     joints.forEach((joint) => add(joint.parent, positionOf(joint.parent_frame)));
     closures.forEach((one) => add(one.first, positionOf(one.first_frame)));
+    springs.forEach((one) => {
+      add(one.first, new THREE.Vector3(...one.first_position));
+      add(one.second, new THREE.Vector3(...one.second_position));
+    });
     points.forEach((point) => add(point.link, new THREE.Vector3(...point.position)));
     links.forEach((link, i) => link.center && add(i, new THREE.Vector3(...link.center)));
     this.box = box;
@@ -87,12 +92,16 @@ class Mechanism {
 
   // Where something is attached, in the link frame; where its tree joint holds it comes first.
   attachments(link) {
-    const {joints, closures} = this.stored;
+    const {joints, closures, springs} = this.stored;
     return [
       ...joints.filter((j) => j.child === link).map((j) => positionOf(j.child_frame)),
       ...joints.filter((j) => j.parent === link).map((j) => positionOf(j.parent_frame)),
       ...closures.filter((c) => c.first === link).map((c) => positionOf(c.first_frame)),
-      ...closures.filter((c) => c.second === link).map((c) => positionOf(c.second_frame))];
+      ...closures.filter((c) => c.second === link).map((c) => positionOf(c.second_frame)),
+      ...springs.filter((s) => s.first === link)
+        .map((s) => new THREE.Vector3(...s.first_position)),
+      ...springs.filter((s) => s.second === link)
+        .map((s) => new THREE.Vector3(...s.second_position))];
   }
 
   addLink(link, i) {
@@ -139,6 +148,15 @@ class Mechanism {
     const line = this.addLine("#8a9099");
     return {line, ends: [{link: joint.parent, local: frameMatrix(joint.parent_frame)},
                          {link: joint.child, local: frameMatrix(joint.child_frame)}]};
+  }
+
+  // Between its two points.
+  addSpring(spring) {
+    const end = (link, place) => (
+      {link, local: new THREE.Matrix4().setPosition(new THREE.Vector3(...place))});
+    return {line: this.addLine(this.isGhost ? "#56b4e9" : "#e69f00"),
+            ends: [end(spring.first, spring.first_position),
+                   end(spring.second, spring.second_position)]};
   }
 
   addLine(colour) {
@@ -259,7 +277,7 @@ class Mechanism {
       group.matrix.copy(this.bent(poses, i));
       group.matrixWorldNeedsUpdate = true;
     });
-    this.rails.forEach((rail) => rail.line.geometry.setFromPoints(this.placesOf(rail.ends)));
+    [...this.rails, ...this.springs].forEach((rail) => rail.line.geometry.setFromPoints(this.placesOf(rail.ends)));
     this.closures.forEach((closure) => this.showClosure(closure, time));
     this.reactions.forEach(({end, force}) => this.showForce(force, this.placesOf([end])[0], time));
   }

@@ -231,4 +231,83 @@ TEST(Statics, A_planar_four_bar_with_redundant_rows_finds_its_rest) {
   EXPECT_LT(e.report.closure_residual, 1e-9);
 }
 
+// A lever of weight W with its centre at r, held by a spring without free length from `height`
+// above the pivot to `arm` along it: with k height arm = W r it rests at every angle.
+TEST(Statics, A_lever_on_a_spring_without_free_length_rests_at_every_angle) {
+  const double height = 0.6, arm = 0.3, weight = 2.0 * 9.81, r = 0.5;
+  for (const double angle : {-1.2, -0.3, 0.4, 1.3}) {
+    Linkage lever = pendulum_at(angle);  // 2 kg at 0.5 m, gravity along -y
+    PointSpring spring;
+    spring.name = "S";
+    spring.first = {kGround, {0.0, height, 0.0}};
+    spring.second = {"rod", {arm, 0.0, 0.0}};
+    spring.stiffness = weight * r / (height * arm);
+    spring.free_length = 0.0;
+    lever.springs = {spring};
+    const Equilibrium e = equilibrium_of(lever);
+    ASSERT_TRUE(e.report.converged);
+    EXPECT_NEAR(e.state.q[0], angle, 1e-9);
+    EXPECT_EQ(e.report.stability, Stability::neutral);
+    EXPECT_NEAR(e.report.smallest_stiffness, 0.0, 1e-8);
+  }
+}
+
+// The same lever level, on a strut below it: k (l - l_0) times its lever bears the weight, and the
+// stiffness is k lever^2 less what the force turns away by.
+TEST(Statics, A_lever_on_a_strut_has_the_stiffness_of_its_closed_form) {
+  const double arm = 0.4, below = 0.3, out = 0.1, weight = 2.0 * 9.81, r = 0.5, k = 5000.0;
+  const Vector3d foot(arm + out, -below, 0.0);
+  const double length = std::hypot(out, below);
+  const double lever = arm * below / length;  // of the line about the pivot
+  const double force = weight * r / lever;    // pushes
+  Linkage linkage = pendulum_at(0.05);
+  PointSpring strut;
+  strut.name = "strut";
+  strut.first = {kGround, foot};
+  strut.second = {"rod", {arm, 0.0, 0.0}};
+  strut.stiffness = k;
+  strut.free_length = length + force / k;
+  for (const SpringActs acts : {SpringActs::both, SpringActs::compression}) {
+    strut.acts = acts;
+    linkage.springs = {strut};
+    const Equilibrium e = equilibrium_of(linkage);
+    ASSERT_TRUE(e.report.converged);
+    EXPECT_NEAR(e.state.q[0], 0.0, 1e-10);
+    // V = k/2 (l - l_0)^2 + W r sin q with l^2 = a^2 + f^2 - 2 a f cos(q - phi), f, phi of the
+    // foot: l l' = a f sin(q - phi), l'^2 + l l'' = a f cos(q - phi).
+    const double af = arm * foot.norm(), phi = std::atan2(foot.y(), foot.x());
+    const double l1 = af * std::sin(-phi) / length;
+    const double l2 = (af * std::cos(phi) - l1 * l1) / length;
+    EXPECT_NEAR(l1, lever, 1e-12);
+    EXPECT_NEAR(e.report.smallest_stiffness, k * l1 * l1 - force * l2, 1e-6);
+    EXPECT_EQ(e.report.stability, Stability::stable);
+  }
+}
+
+// A rope from both sides, one of them slack; the table of the other bends 0.1 mm away from where
+// it rests, which differences over a thousandth of the mechanism would not see.
+TEST(Statics, Springs_that_bend_count_with_the_slope_where_they_rest) {
+  Linkage linkage = hanging_mass(1.0, 0.0);
+  linkage.closures.clear();
+  PointSpring slack;
+  slack.name = "slack";
+  slack.first = {kGround, {0.0, 0.0, -1.0}};
+  slack.second = {"mass", Vector3d::Zero()};
+  slack.acts = SpringActs::tension;
+  slack.stiffness = 1e5;
+  slack.free_length = 2.0;
+  PointSpring table = slack;
+  table.name = "table";
+  table.first.position = {0.0, 0.0, 1.0};
+  table.stiffness = 0.0;
+  table.free_length.reset();
+  table.force = ForceCurve{{1.0, 1.1, 1.1002, 2.0}, {0.0, 9.0, 11.0, 12.0}};
+  linkage.springs = {slack, table};
+  linkage.joints[0].position = {-0.10015};
+  const Equilibrium e = equilibrium_of(linkage);
+  ASSERT_TRUE(e.report.converged);
+  EXPECT_NEAR(e.state.q[0], -(0.1 + 0.0002 * (9.81 - 9.0) / 2.0), 1e-12);
+  EXPECT_NEAR(e.report.smallest_stiffness, 2.0 / 0.0002, 1e-6);
+}
+
 }  // namespace linkstudy::testing::statics_test

@@ -44,6 +44,7 @@ MechanismStructure full_structure() {
   m.support = {0};
   m.loads.push_back({LoadType::drive});
   m.joint_springs.push_back({0, 0});
+  m.point_springs.push_back({.first = 0, .second = 1, .curve = {}});
   m.clearances.push_back(
       {.closure = 0, .bearing_first = false, .hertz = false, .contact_begin = 0, .contact_end = 1});
   m.contacts.push_back({0, 0.0});
@@ -125,6 +126,16 @@ TEST(SameStructure, Counts_every_member_of_contacts_friction_springs_and_loads) 
        [](M& m) { m.frictions[0].slide = 9; }, [](M& m) { m.frictions[0].z = 9; }});
   expect_each_counts<JointSpring>(
       {[](M& m) { m.joint_springs[0].q = 9; }, [](M& m) { m.joint_springs[0].v = 9; }});
+  expect_each_counts<PointSpringStructure>(
+      {[](M& m) { m.point_springs[0].first = 9; }, [](M& m) { m.point_springs[0].second = 9; },
+       [](M& m) { m.point_springs[0].acts = SpringActs::tension; },
+       [](M& m) { m.point_springs[0].curve.end = 9; },
+       [](M& m) { m.point_springs[0].is_driven = true; },
+       [](M& m) { m.point_springs[0].course = CourseShape::ramp; },
+       [](M& m) { m.point_springs[0].table_begin = 9; },
+       [](M& m) { m.point_springs[0].table_end = 9; }});
+  expect_each_counts<CurveStructure>({[](M& m) { m.point_springs[0].curve.begin = 9; },
+                                      [](M& m) { m.point_springs[0].curve.end = 9; }});
   expect_each_counts<LoadStructure>(
       {[](M& m) { m.loads[0].type = LoadType::resistance; }, [](M& m) { m.loads[0].v = 9; },
        [](M& m) { m.loads[0].body = 9; }, [](M& m) { m.loads[0].follows_link = true; },
@@ -153,6 +164,7 @@ TEST(SameStructure, Counts_every_list_and_number_of_a_mechanism) {
                                           [](M& m) { m.support.clear(); },
                                           [](M& m) { m.loads.clear(); },
                                           [](M& m) { m.joint_springs.clear(); },
+                                          [](M& m) { m.point_springs.clear(); },
                                           [](M& m) { m.clearances.clear(); },
                                           [](M& m) { m.contacts.clear(); },
                                           [](M& m) { m.frictions.clear(); },

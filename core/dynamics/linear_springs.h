@@ -1,0 +1,17 @@
+// Springs whose force bends, one-sided ones and tables, as they are near one state: derivatives by
+// differences do not see across their bends then.
+#pragma once
+
+#include <optional>
+
+#include "core/model/compile.h"
+#include "core/model/workspace.h"
+
+namespace linkstudy {
+
+// The model with every such spring between points made a linear one of the same force, slope and
+// damping at the state; nothing where there is none.
+std::optional<Model> with_linear_springs(const Model& model, const State<double>& s,
+                                         Workspace<double>& w);
+
+}  // namespace linkstudy

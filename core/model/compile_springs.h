@@ -1,0 +1,16 @@
+// Springs between points as the step loop has them, appended to a model.
+#pragma once
+
+#include "core/model/compile.h"
+
+namespace linkstudy {
+
+struct PlacedPoint {
+  int body;
+  Vec3<double> position;  // internal frame, m
+};
+
+void add_point_spring(const PointSpring& spring, const PlacedPoint& first,
+                      const PlacedPoint& second, Model& model);
+
+}  // namespace linkstudy
