@@ -24,6 +24,11 @@ void* operator new(std::size_t size) {
 void* operator new[](std::size_t size) {
   return counted(size);
 }
+// What std::stable_sort takes; without it another library's would meet the delete below.
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  ++allocations;
+  return std::malloc(size > 0 ? size : 1);
+}
 // Packs are wider than what malloc aligns to.
 void* operator new(std::size_t size, std::align_val_t alignment) {
   ++allocations;
