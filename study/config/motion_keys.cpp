@@ -26,7 +26,7 @@ std::vector<std::string> moved_speed_units(const Tree& document, const Tree& mot
 }
 
 // What was reported is no law: a speed takes the fewest keys.
-void leave_unknown_law(Motion& motion, Tree& law, const Reading&) {
+void leave_unknown_motion(Motion& motion, Tree& law, const Reading&) {
   if (are_known(law, {"shape", "from", "to", "duration", "speed", "rise", "amplitude", "frequency",
                       "phase", "times", "positions"})) {
     return;
@@ -113,7 +113,7 @@ Fields<Motion> motion_fields() {
              {.meaning = "coordinate within the joint, from 0; none of a quaternion",
               .range = {.low = 0, .high = 5}});
   motion.table("law", {.meaning = "position over time", .required = true}, motion_law_fields(),
-               leave_unknown_law);
+               leave_unknown_motion);
   return motion;
 }
 

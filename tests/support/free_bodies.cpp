@@ -112,6 +112,7 @@ Moving joint_motion(Moving m, const Joint& joint, Reader& read) {
       for (int k = 0; k < 3; ++k) m = slide(m, k, read.next());
       return turn_ball(m, joint, read);
     case JointType::fixed:
+    case JointType::pin_in_slot:  // of closures
       return m;
     case JointType::screw:
       return turn_screw(m, joint.pitch, read.next());
