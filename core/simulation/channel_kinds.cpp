@@ -7,6 +7,7 @@ namespace linkstudy {
 namespace {
 
 constexpr std::string_view kRubbing = "joints with friction";
+constexpr std::string_view kStopped = "joints with end stops";
 constexpr std::string_view kLoose = "closures with clearance";
 constexpr std::string_view kLooseRubbing = "closures with clearance and friction";
 constexpr std::string_view kVector = "x|y|z";
@@ -61,6 +62,9 @@ constexpr std::array kKinds = {
     ChannelKind{Quantity::joint_friction, "joint", "friction", "[i]", "N m|N", kRubbing,
                 "friction, positive against the rate of the coordinate; of a cylindrical joint 0 "
                 "against its turn, 1 against its shift"},
+    ChannelKind{Quantity::stop_force, "joint", "stop.force", "[i]", "N m|N", kStopped,
+                "force or moment of the end stops on coordinate i, positive where it pushes the "
+                "coordinate up"},
     ChannelKind{Quantity::spring_length, "spring", "length", "", "m", "",
                 "distance of the two points"},
     ChannelKind{Quantity::spring_rate, "spring", "rate", "", "m/s", "",

@@ -29,6 +29,7 @@ enum class Quantity : std::uint8_t {
   contact_state,
   friction_load,
   joint_friction,
+  stop_force,
   spring_length,
   spring_rate,
   spring_force,
