@@ -6,6 +6,7 @@
 #pragma once
 
 #include "core/forces/point_springs.h"
+#include "core/model/contact_of.h"
 #include "core/model/parameters.h"
 #include "core/model/walk.h"
 #include "core/model/workspace.h"
@@ -42,6 +43,9 @@ inline Energy<Real> compute_energy(const Mechanism& m, const Parameters<Real>& p
     const JointSpringParameters<Real>& n = at(p.joint_springs, i);
     const Real d = q[at(m.joint_springs, i).q] - n.rest;
     e.elastic = madd(Real(0.5) * n.stiffness * d, d, e.elastic);
+    if (at(m.joint_springs, i).curve.is_linear()) continue;
+    e.elastic = e.elastic + curve_energy(at(m.joint_springs, i).curve, n.curve, p.segments.data(),
+                                         q[at(m.joint_springs, i).q]);
   }
   for (const int i : indices_of(m.point_springs)) {
     e.elastic = e.elastic + point_spring_energy(at(m.point_springs, i), at(p.point_springs, i),
@@ -49,8 +53,7 @@ inline Energy<Real> compute_energy(const Mechanism& m, const Parameters<Real>& p
   }
   for (const int i : indices_of(m.contacts)) {
     const ContactState<Real>& s = at(w.contacts, i);
-    const ClearanceParameters<Real>& n = at(p.clearances, at(m.contacts, i).clearance);
-    e.elastic = e.elastic + contact_energy(n.contact, s.depth, s.elastic);
+    e.elastic = e.elastic + contact_energy(law_of_contact(m, p, i), s.depth, s.elastic);
   }
   return e;
 }

@@ -1,5 +1,5 @@
-// Springs whose force bends, one-sided ones and tables, as they are near one state: derivatives by
-// differences do not see across their bends then.
+// Springs and end stops whose force bends as they are near one state: derivatives by differences do
+// not see across their bends then.
 #pragma once
 
 #include <optional>
@@ -9,9 +9,13 @@
 
 namespace linkstudy {
 
-// The model with every such spring between points made a linear one of the same force, slope and
-// damping at the state; nothing where there is none.
+// The model with every spring that bends (one-sided, or a table) made a linear one of the same
+// force, slope and damping at the state; nothing where there is none.
 std::optional<Model> with_linear_springs(const Model& model, const State<double>& s,
                                          Workspace<double>& w);
+
+// The same of end stops too, at rest: those that touch are linear springs, the others nothing.
+std::optional<Model> with_linear_forces(const Model& model, const State<double>& s,
+                                        Workspace<double>& w);
 
 }  // namespace linkstudy

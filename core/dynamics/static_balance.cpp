@@ -41,7 +41,7 @@ ForceGradient compute_force_gradient(const Model& model, const State<double>& s,
                                      const VectorXd& lambda, const std::vector<int>& free,
                                      Workspace<double>& w) {
   const Mechanism& m = model.mechanism;
-  const std::optional<Model> linear = with_linear_springs(model, s, w);
+  const std::optional<Model> linear = with_linear_forces(model, s, w);
   const Model& near = linear ? *linear : model;
   const VectorXd steps = difference_steps(model, s);
   const auto n = static_cast<Eigen::Index>(free.size());

@@ -10,6 +10,7 @@
 #include "core/dynamics/static_balance.h"
 #include "core/dynamics/static_descent.h"
 #include "core/dynamics/static_failure.h"
+#include "core/forces/end_stops.h"
 #include "core/kinematics/assembly.h"
 #include "core/kinematics/scaled_closures.h"
 
@@ -32,6 +33,15 @@ VectorXd newton_step(const BalanceSystem& s, Eigen::Index closures) {
   return x;
 }
 
+double steepest(const Model& model, const CurveStructure& curve) {
+  double steepest = 0.0;
+  for (int k = curve.begin; k < curve.end; ++k) {
+    const double slope = model.parameters.segments[static_cast<std::size_t>(k)].slope;
+    steepest = std::max(steepest, std::abs(slope));
+  }
+  return steepest;
+}
+
 // Largest stiffness of a spring between points along its line, and across it: force / length.
 double stiffest_line(const Model& model, const State<double>& s) {
   Workspace<double> w = make_workspace<double>(model.mechanism);
@@ -42,10 +52,7 @@ double stiffest_line(const Model& model, const State<double>& s) {
     const PointSpringState<double>& x = w.point_springs[i];
     stiffest = std::max(stiffest, model.parameters.point_springs[i].stiffness);
     if (x.length > 0.0) stiffest = std::max(stiffest, std::abs(x.force) / x.length);
-    for (int k = structure.curve.begin; k < structure.curve.end; ++k) {
-      const double slope = model.parameters.segments[static_cast<std::size_t>(k)].slope;
-      stiffest = std::max(stiffest, std::abs(slope));
-    }
+    stiffest = std::max(stiffest, steepest(model, structure.curve));
   }
   return stiffest;
 }
@@ -62,6 +69,19 @@ double rounding_floor(const Model& model, const State<double>& s) {
   }
   for (const JointSpringParameters<double>& spring : model.parameters.joint_springs) {
     largest = std::max(largest, spring.stiffness * std::max(1.0, std::abs(spring.rest)));
+  }
+  for (const JointSpring& spring : model.mechanism.joint_springs) {
+    const double q = s.q[static_cast<std::size_t>(spring.q)];
+    const double slope = steepest(model, spring.curve);
+    largest = std::max(largest, slope * std::max(1.0, std::abs(q)));
+  }
+  for (std::size_t i = 0; i < model.parameters.stops.size(); ++i) {
+    const StopParameters<double>& stop = model.parameters.stops[i];
+    const double depth = stop_depth(model.mechanism.stops[i], stop, s.q.data());
+    if (!(depth > 0.0)) continue;
+    const double slope = stop.contact.exponent * stop.contact.stiffness *
+                         std::pow(depth, stop.contact.exponent - 1.0);
+    largest = std::max(largest, slope * std::max(1.0, std::abs(stop.limit)));
   }
   return 8.0 * std::numeric_limits<double>::epsilon() *
          std::max(largest, stiffest_line(model, s) * reach);

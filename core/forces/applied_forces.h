@@ -5,6 +5,7 @@
 
 #include "core/forces/contact_forces.h"
 #include "core/forces/course_value.h"
+#include "core/forces/end_stops.h"
 #include "core/forces/point_springs.h"
 
 namespace linkstudy {
@@ -55,6 +56,14 @@ inline void add_loads(const Mechanism& m, const Parameters<Real>& p, Real t, con
   }
 }
 
+// A curve beside the spring: tau = -curve(q).
+template <class Real>
+inline void add_joint_curve(const JointSpring& s, const JointSpringParameters<Real>& n,
+                            const SegmentParameters<Real>* segments, Real q, Workspace<Real>& w) {
+  at(w.tau, s.v) = at(w.tau, s.v) - curve_force(s.curve, n.curve, segments, q);
+  at(w.spring_weights, s.bend) = abs(curve_slope(s.curve, segments, q));
+}
+
 // Springs and dampers of tree joints, such as the sdes of a flexible link ([AugUrb18] sec. 3):
 // tau = -c (q - rest) - b v.
 template <class Real>
@@ -65,6 +74,7 @@ inline void add_joint_springs(const Mechanism& m, const Parameters<Real>& p, con
     const JointSpringParameters<Real>& n = at(p.joint_springs, i);
     const Real damping = n.damping * v[s.v];
     at(w.tau, s.v) = at(w.tau, s.v) - madd(n.stiffness, q[s.q] - n.rest, damping);
+    if (s.bend >= 0) add_joint_curve(s, n, p.segments.data(), q[s.q], w);
     w.dissipated_power = madd(damping, v[s.v], w.dissipated_power);
   }
 }
@@ -102,6 +112,7 @@ inline void update_applied_forces(const Mechanism& m, const Parameters<Real>& p,
   add_sdes(m, p, w);
   add_point_springs(m, p, t, w);
   add_contacts(m, p, w);
+  add_stops(m, p, q, v, w);
 }
 
 }  // namespace linkstudy

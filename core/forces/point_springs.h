@@ -90,16 +90,15 @@ inline void add_point_spring(const Mechanism& m, const Parameters<Real>& p, int 
   }
   x.pull = x.force * e;
   subtract_spring_force(x, at(w.bodies, s.first).wrench, at(w.bodies, s.second).wrench);
-  if (s.is_linear()) return;
-  // What tells at which states the step is limited most: slope and damping, whatever their units.
+  if (s.bend < 0) return;
   const Real damping = select(is_acting(s.acts, stretch), n.damping, Real(0.0));
-  at(w.spring_weights, i) = abs(spring_slope(s, n, segments, x.length, stretch)) + damping;
+  at(w.spring_weights, s.bend) = abs(spring_slope(s, n, segments, x.length, stretch)) + damping;
 }
 
 template <class Real>
 inline void add_point_springs(const Mechanism& m, const Parameters<Real>& p, Real t,
                               Workspace<Real>& w) {
-  for (const int i : indices(m.point_spring_count())) add_point_spring(m, p, i, t, w);
+  for (const int i : indices_of(m.point_springs)) add_point_spring(m, p, i, t, w);
 }
 
 }  // namespace linkstudy

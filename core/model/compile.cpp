@@ -119,6 +119,9 @@ class Compiler {
     add_ground();
     for (const Joint* joint : tree_order(linkage_, body_of_)) add_body(*joint);
     for (const Closure& closure : linkage_.closures) add_closure(closure);
+    for (const Joint& joint : linkage_.joints) {
+      if (joint.stop) add_stops(*joint.stop, body_of_.at(joint.child), model_);
+    }
     for (const Load& load : linkage_.loads) add_load(load);
     for (const Motion& motion : linkage_.motions) {
       compile_motion(motion, body_on(motion.joint), model_);
@@ -219,9 +222,17 @@ class Compiler {
     for (int i = 0; i < body.v_count; ++i) {
       const auto n = static_cast<std::size_t>(i);
       const double stiffness = value(joint.stiffness, n), damping = value(joint.damping, n);
-      if (stiffness == 0.0 && damping == 0.0) continue;
-      mechanism().joint_springs.push_back({body.q_begin + i, body.v_begin + i});
-      parameters().joint_springs.push_back({stiffness, damping, value(joint.rest, n)});
+      const bool bends = joint.spring_curve && joint.spring_curve->coordinate == i;
+      if (stiffness == 0.0 && damping == 0.0 && !bends) continue;
+      JointSpring s{body.q_begin + i, body.v_begin + i};
+      JointSpringParameters<double> p{stiffness, damping, value(joint.rest, n), {}};
+      if (bends) {
+        p.curve = add_curve(joint.spring_curve->curve, SpringActs::both, s.curve, mechanism(),
+                            parameters());
+        s.bend = mechanism().bent_springs++;
+      }
+      mechanism().joint_springs.push_back(s);
+      parameters().joint_springs.push_back(p);
     }
   }
 

@@ -1,4 +1,4 @@
-// Springs between points as the step loop has them, appended to a model.
+// Springs between points and end stops as the step loop has them, appended to a model.
 #pragma once
 
 #include "core/model/compile.h"
@@ -12,5 +12,8 @@ struct PlacedPoint {
 
 void add_point_spring(const PointSpring& spring, const PlacedPoint& first,
                       const PlacedPoint& second, Model& model);
+
+// Of the coordinates of a body's joint; their contacts come behind those of clearances.
+void add_stops(const JointStops& stops, int body, Model& model);
 
 }  // namespace linkstudy

@@ -124,17 +124,19 @@ struct ClosureStructure {
   bool operator==(const ClosureStructure&) const = default;
 };
 
-// Spring and damper on one coordinate of a tree joint.
-struct JointSpring {
-  int q, v;
-  bool operator==(const JointSpring&) const = default;
-};
-
 // Segments of a piecewise linear force in Parameters::segments; none: the force is linear.
 struct CurveStructure {
   int begin = 0, end = 0;
   bool is_linear() const { return begin == end; }
   bool operator==(const CurveStructure&) const = default;
+};
+
+// Spring and damper on one coordinate of a tree joint, and a curve beside them.
+struct JointSpring {
+  int q, v;
+  CurveStructure curve{};
+  int bend = -1;  // as below
+  bool operator==(const JointSpring&) const = default;
 };
 
 // Spring, damper and actuator between a point of each of two bodies.
@@ -145,8 +147,7 @@ struct PointSpringStructure {
   bool is_driven = false;  // has an actuator
   CourseShape course = CourseShape::constant;
   int table_begin = 0, table_end = 0;  // segments of a table course
-  // Stiffness and damping are the same at every length.
-  bool is_linear() const { return acts == SpringActs::both && curve.is_linear(); }
+  int bend = -1;  // number among the springs whose stiffness or damping changes; -1: it does not
   bool operator==(const PointSpringStructure&) const = default;
 };
 
@@ -162,12 +163,24 @@ struct ClearanceStructure {
   bool operator==(const ClearanceStructure&) const = default;
 };
 
-// One place where a journal can touch its bearing.
+// One place where a journal can touch its bearing, or a joint its end stop.
 struct ContactStructure {
-  int clearance;
-  double side;  // of the bearing's length, from its middle: 0, -1/2, 1/2
-  int z = -1;   // bristle, or -1: no friction
+  int clearance;  // -1 of a stop
+  double side;    // of the bearing's length, from its middle: 0, -1/2, 1/2
+  int z = -1;     // bristle, or -1: no friction
+  int stop = -1;  // -1 of a clearance
   bool operator==(const ContactStructure&) const = default;
+};
+
+// An end stop: contact where the coordinate is beyond its limit on one side.
+struct StopStructure {
+  int q, v;
+  bool is_high;
+  bool hertz;       // exponent 3/2
+  bool is_viscous;  // damped by b d' in place of the law of an impact
+  ApproachSpeed approach = ApproachSpeed::begin;
+  int contact;
+  bool operator==(const StopStructure&) const = default;
 };
 
 // Friction in a tree joint: velocities it brakes (or -1), and its first bristle.
@@ -246,7 +259,8 @@ struct MechanismStructure {
   std::vector<JointSpring> joint_springs;
   std::vector<PointSpringStructure> point_springs;
   std::vector<ClearanceStructure> clearances;
-  std::vector<ContactStructure> contacts;  // clearance by clearance
+  std::vector<ContactStructure> contacts;  // clearance by clearance, then those of stops
+  std::vector<StopStructure> stops;
   std::vector<JointFrictionStructure> frictions;
   int nz = 0;  // bristles
   int table_segments = 0;
@@ -255,7 +269,8 @@ struct MechanismStructure {
   std::vector<MotionStructure> motions;
   std::vector<int> motion_support;  // by motion: velocities that carry its body, or that it carries
   int knots = 0;                    // of the tables of motions
-  bool projects = false;            // some cut closure asks for coordinate projection
+  int bent_springs = 0;
+  bool projects = false;  // some cut closure asks for coordinate projection
   // How redundant reactions are shared (core/dynamics/shared_reactions.h); empty where they are
   // those of the multipliers.
   std::vector<LoopJoint> loop_joints;  // those that count first
@@ -268,7 +283,6 @@ struct MechanismStructure {
   int sde_row_count() const { return static_cast<int>(sde_rows.size()); }
   int contact_count() const { return static_cast<int>(contacts.size()); }
   int friction_count() const { return static_cast<int>(frictions.size()); }
-  int point_spring_count() const { return static_cast<int>(point_springs.size()); }
 };
 
 struct Mechanism : MechanismStructure {

@@ -44,6 +44,11 @@ struct SegmentParameters {
   Real begin, length, slope;  // of a table course, or a force over a length or coordinate
 };
 
+template <class Real>
+struct SpringParameters {
+  Real stiffness, damping;
+};
+
 // Where a piecewise linear force begins.
 template <class Real>
 struct CurveParameters {
@@ -53,13 +58,9 @@ struct CurveParameters {
 };
 
 template <class Real>
-struct SpringParameters {
-  Real stiffness, damping;
-};
-
-template <class Real>
 struct JointSpringParameters {
   Real stiffness, damping, rest;
+  CurveParameters<Real> curve;  // beside stiffness and rest
 };
 
 template <class Real>
@@ -83,6 +84,13 @@ struct ClearanceParameters {
 };
 
 template <class Real>
+struct StopParameters {
+  Real limit;                   // rad or m
+  NormalContact<Real> contact;  // N/m^n or N m/rad^n, rad/s or m/s
+  Real damping;                 // b, N s/m or N m s/rad
+};
+
+template <class Real>
 struct JointFrictionParameters {
   LugreParameters<Real> law;
   Real radius;          // m
@@ -102,6 +110,7 @@ struct Parameters {
   std::vector<JointSpringParameters<Real>> joint_springs;
   std::vector<PointSpringParameters<Real>> point_springs;
   std::vector<ClearanceParameters<Real>> clearances;
+  std::vector<StopParameters<Real>> stops;
   std::vector<JointFrictionParameters<Real>> frictions;
   std::vector<SegmentParameters<Real>> segments;
   std::vector<MotionParameters<Real>> motions;

@@ -144,7 +144,8 @@ struct Workspace {
   std::vector<ContactState<Real>> contacts;
   std::vector<ContactMemory<Real>> memory;
   std::vector<PointSpringState<Real>> point_springs;
-  std::vector<Real> spring_weights;  // (point springs) core/forces/point_springs.h
+  // (bent springs) |slope| + damping, whatever their units: at which states they limit the step.
+  std::vector<Real> spring_weights;
   std::vector<JointFrictionState<Real>> frictions;
   std::vector<Real> friction_tau;               // (nv) of joints with friction
   std::vector<Real> friction_inverse;           // of d gap / d load, negative
@@ -226,7 +227,7 @@ Workspace<Real> make_workspace(const Mechanism& m) {
   w.contacts.resize(m.contacts.size());
   w.memory.resize(m.contacts.size());
   w.point_springs.resize(m.point_springs.size());
-  w.spring_weights.assign(m.point_springs.size(), Real(0.0));
+  w.spring_weights.assign(static_cast<std::size_t>(m.bent_springs), Real(0.0));
   w.frictions.resize(m.frictions.size());
   w.friction_inverse.resize(m.frictions.size() * m.frictions.size());
   w.friction_tau.assign(m.frictions.empty() ? 0 : nv, Real(0.0));

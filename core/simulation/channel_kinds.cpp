@@ -7,6 +7,7 @@ namespace linkstudy {
 namespace {
 
 constexpr std::string_view kRubbing = "joints with friction";
+constexpr std::string_view kStopped = "joints with end stops";
 constexpr std::string_view kLoose = "closures with clearance";
 constexpr std::string_view kLooseRubbing = "closures with clearance and friction";
 constexpr std::string_view kVector = "x|y|z";
@@ -69,6 +70,9 @@ constexpr std::array kKinds = {
     ChannelKind{Quantity::coupling_effort, "coupling", "effort", "", "N m|N", "",
                 "times the factor of a term: the generalised force that the coupling puts on its "
                 "coordinate; the teeth of a gear pair press with effort / radius"},
+    ChannelKind{Quantity::stop_force, "joint", "stop.force", "[i]", "N m|N", kStopped,
+                "force or moment of the end stops on coordinate i, positive where it pushes the "
+                "coordinate up"},
     ChannelKind{Quantity::spring_length, "spring", "length", "", "m", "",
                 "distance of the two points"},
     ChannelKind{Quantity::spring_rate, "spring", "rate", "", "m/s", "",

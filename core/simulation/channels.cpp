@@ -127,7 +127,18 @@ class Lister {
     add_vector(name, Quantity::joint_torque, b);
     add_vector(name, Quantity::joint_force_local, b);
     add_vector(name, Quantity::joint_torque_local, b);
+    add_stops_of(body, name);
     add_friction_of(b, name);
+  }
+
+  void add_stops_of(const Body& body, const std::string& name) {
+    for (int i = 0; i < body.v_count; ++i) {
+      const int v = body.v_begin + i;
+      const auto is_own = [v](const StopStructure& stop) { return stop.v == v; };
+      if (std::ranges::none_of(m_.stops, is_own)) continue;
+      add_coordinate(name, Quantity::stop_force, body.v_begin, i, body.v_count,
+                     is_rotation(m_, v) ? "N m" : "N");
+    }
   }
 
   void add_clearances_of(int closure, const std::string& name) {

@@ -32,6 +32,7 @@ enum class Quantity : std::uint8_t {
   motion_effort,
   motion_power,
   coupling_effort,
+  stop_force,
   spring_length,
   spring_rate,
   spring_force,

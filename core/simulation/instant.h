@@ -5,6 +5,7 @@
 #include "core/dynamics/energy.h"
 #include "core/dynamics/reactions.h"
 #include "core/dynamics/shared_reactions.h"
+#include "core/forces/end_stops.h"
 #include "core/kinematics/point_motion.h"
 #include "core/simulation/channels.h"
 
@@ -76,6 +77,8 @@ class Instant {
         return -at(w_.cut_rows, at(m_.couplings, c.index).row).value;
       case Quantity::motion_power:
         return at(w_.efforts, c.index) * at(w_.motions, c.index).v;
+      case Quantity::stop_force:
+        return stop_force_on(c.index);
       case Quantity::spring_length:
         return at(w_.point_springs, c.index).length;
       case Quantity::spring_rate:
@@ -142,6 +145,15 @@ class Instant {
     const auto same_side = dot(a.eccentricity, b.eccentricity) > none;
     const Real both = select(same_side, line, two);
     return select(touches_a && touches_b, both, select(touches_a || touches_b, one, none));
+  }
+
+  // Of both ends of a coordinate.
+  Real stop_force_on(int v) const {
+    Real force(0.0);
+    for (const StopStructure& s : m_.stops) {
+      if (s.v == v) force = force - towards_stop(s, at(w_.contacts, s.contact).normal);
+    }
+    return force;
   }
 
   Real energy(Quantity quantity) {

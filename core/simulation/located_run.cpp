@@ -114,6 +114,10 @@ class LocatedRun {
         contacts[i] = {k.depth, k.rate};
       }
     });
+    for (const int i : indices_of(m_.stops)) {
+      const StopStructure& s = at(m_.stops, i);
+      contacts[s.contact] = {stop_depth(s, at(p_.stops, i), y), towards_stop(s, y[m_.nq + s.v])};
+    }
   }
 
   void look_inside(double t, Nearness* contacts) {
@@ -221,11 +225,10 @@ class LocatedRun {
       phases_[i].fresh = false;
       if (!phases_[i].touching) continue;
       ContactMemory<double>& memory = w_.memory[i];
-      const auto clearance = static_cast<std::size_t>(m_.contacts[i].clearance);
       // The force at this state is the same before and after: its law takes the larger speed
       // anyway.
-      memory.approach =
-          dividing_speed(m_.clearances[clearance].approach, memory.approach, begin_[i].rate);
+      memory.approach = dividing_speed(approach_of_contact(m_, static_cast<int>(i)),
+                                       memory.approach, begin_[i].rate);
     }
   }
 

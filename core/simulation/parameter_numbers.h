@@ -19,6 +19,7 @@ inline void for_parameter_lists(F&& f, P&... p) {
   f(p.joint_springs...);
   f(p.point_springs...);
   f(p.clearances...);
+  f(p.stops...);
   f(p.frictions...);
   f(p.segments...);
   f(p.motions...);

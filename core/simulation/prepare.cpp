@@ -171,6 +171,7 @@ bool keep_loose_journals(const Linkage& linkage, const std::vector<unsigned>& id
   Workspace<double> w = make_workspace<double>(m);
   compute_motion(m, p.model.parameters, start, w);
   for (std::size_t i = 0; i < m.contacts.size(); ++i) {
+    if (m.contacts[i].clearance < 0) continue;
     const auto c = static_cast<std::size_t>(m.contacts[i].clearance);
     if (w.contacts[i].depth > kPressed * p.model.parameters.clearances[c].radial) return false;
   }

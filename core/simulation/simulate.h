@@ -52,7 +52,7 @@ struct SimulationOutcome {
   bool redundant = false;            // cut rows were dependent at some instant
   int least_rank = -1;               // independent cut rows over the steps; -1: no step
   int greatest_rank = -1;  // more than the least: a singular pose was passed, or steps are coarse
-  long contacts = 0;       // of journals and bearings, begun
+  long contacts = 0;       // of journals with bearings and at end stops, begun
   long least_contact_steps = 0;  // steps in the shortest contact that has ended; 0: none
   StepLimit step_limit;          // worst along the run; adaptive, stiff: as known before
   State<double> final_state;

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 
+#include "core/model/contact_of.h"
 #include "core/simulation/kernel.h"
 #include "core/simulation/looks.h"
 
@@ -57,14 +58,13 @@ class StepWatch {
     }
     for (const int i : indices_of(m_.contacts)) {
       const ContactState<Real>& s = at(w.contacts, i);
-      const NormalContact<Real>& law = at(p_.clearances, at(m_.contacts, i).clearance).contact;
+      const NormalContact<Real>& law = law_of_contact(m_, p_, i);
       rate = max(rate, s.relaxation);
       const int n = m_.friction_count() + 2 * i;
       note(n, s.elastic);
-      note(n + 1, s.elastic * law.damping / max(s.approach, law.least_speed));
+      note(n + 1, s.elastic * law.damping / max(s.approach, law.least_speed) + viscous(i, s));
     }
-    for (const int i : indices_of(m_.point_springs)) {
-      if (at(m_.point_springs, i).is_linear()) continue;
+    for (const int i : indices(m_.bent_springs)) {
       note(m_.friction_count() + 2 * m_.contact_count() + i, at(w.spring_weights, i));
     }
     const auto faster = right && rate > rate_;
@@ -81,6 +81,13 @@ class StepWatch {
  private:
   static constexpr double kRight = 1.1, kFarthest = 2.0;  // times what a bristle can be bent
   static constexpr double kHeavier = 1.02;  // so that a load that grows is not kept at every step
+
+  // Damping of a stop that does not follow the law of an impact, where it touches.
+  Real viscous(int contact, const ContactState<Real>& s) const {
+    const int stop = at(m_.contacts, contact).stop;
+    if (stop < 0) return Real(0.0);
+    return select(s.elastic > Real(0.0), at(p_.stops, stop).damping, Real(0.0));
+  }
 
   // Largest |z| in parts of what its law allows.
   Real bent(const Real* z) const {

@@ -39,19 +39,39 @@ void check_size(const Clearance& clearance, RecordCheck& record) {
   }
 }
 
-void check_contact(const Clearance& clearance, RecordCheck& record) {
-  const double restitution = clearance.restitution;
+// Keys are those of `table`.
+void check_impact(const std::string& table, double restitution, double exponent,
+                  RecordCheck& record) {
   if (!(restitution > 0.0 && restitution <= 1.0)) {
     record.report(
-        "contact.restitution",
-        "contact.restitution must lie above 0 and not above 1, got " + text_of(restitution),
+        table + ".restitution",
+        table + ".restitution must lie above 0 and not above 1, got " + text_of(restitution),
         "1 loses no energy; metals have 0.5 to 0.95");
   }
-  if (!(std::isfinite(clearance.exponent) && clearance.exponent >= 1.0)) {
-    record.report("contact.exponent",
-                  "contact.exponent must be 1 or more, got " + text_of(clearance.exponent),
+  if (!(std::isfinite(exponent) && exponent >= 1.0)) {
+    record.report(table + ".exponent",
+                  table + ".exponent must be 1 or more, got " + text_of(exponent),
                   "1.5 is Hertz's for metals, 1 a linear spring");
   }
+}
+
+// One entry for each coordinate, or none where it may be left out.
+bool has_entries(const std::string& key, const std::vector<double>& values, int count,
+                 bool may_miss, RecordCheck& record) {
+  if (values.empty() && may_miss) return true;
+  if (static_cast<int>(values.size()) == count) {
+    record.require_finite(key, all_finite(values));
+    return all_finite(values);
+  }
+  record.report(key,
+                key + " must have " + std::to_string(count) + (count == 1 ? " entry" : " entries") +
+                    " for this joint, got " + std::to_string(values.size()),
+                "give one entry for each coordinate");
+  return false;
+}
+
+void check_contact(const Clearance& clearance, RecordCheck& record) {
+  check_impact("contact", clearance.restitution, clearance.exponent, record);
   record.require_positive("contact.least_speed", clearance.least_speed);
   if (clearance.stiffness) {
     record.require_positive("contact.stiffness", *clearance.stiffness);
@@ -100,6 +120,36 @@ void check_joint_friction(const Joint& joint, RecordCheck& record) {
   }
   record.require_not_negative("friction.length", friction.length);
   record.require_not_negative("friction.preload", friction.preload);
+}
+
+void check_stops(const Joint& joint, RecordCheck& record) {
+  const JointStops& stop = *joint.stop;
+  const int count = velocity_count(joint.type);
+  if (count == 0 || position_count(joint.type, joint.coordinates) != count) {
+    record.report("stop", "a stop ends the way of coordinates, which this joint has not",
+                  count == 0 ? "take it off" : "use coordinates = \"zyx\"");
+    return;
+  }
+  check_impact("stop", stop.restitution, stop.exponent, record);
+  const bool low = has_entries("stop.low", stop.low, count, true, record);
+  const bool high = has_entries("stop.high", stop.high, count, true, record);
+  const bool stiffness = has_entries("stop.stiffness", stop.stiffness, count, false, record);
+  if (has_entries("stop.damping", stop.damping, count, true, record)) {
+    for (const double b : stop.damping) record.require_not_negative("stop.damping", b);
+  }
+  if (!low || !high || !stiffness) return;
+  if (stop.low.empty() && stop.high.empty()) {
+    record.report("stop", "neither low nor high is given", "give one of them or both");
+  }
+  for (std::size_t i = 0; i < stop.stiffness.size(); ++i) {
+    record.require_not_negative("stop.stiffness." + std::to_string(i), stop.stiffness[i]);
+    const bool both = !stop.low.empty() && !stop.high.empty() && stop.stiffness[i] > 0.0;
+    if (!both || stop.low[i] < stop.high[i]) continue;
+    record.report("stop.low." + std::to_string(i),
+                  "stop.low must lie below stop.high, got " + text_of(stop.low[i]) + " and " +
+                      text_of(stop.high[i]),
+                  "swap them; stiffness 0 takes the stops off a coordinate");
+  }
 }
 
 void check_clearance(const Closure& closure, RecordCheck& record) {

@@ -1,6 +1,6 @@
-// Checks of friction and of clearance: values in the range in which their laws hold. Part of
-// check_joint and check_closure. Keys are those of the input: `clearance`, `contact`, `friction` of
-// a closure, `friction` of a joint.
+// Checks of friction, of end stops and of clearance: values in the range in which their laws hold.
+// Part of check_joint and check_closure. Keys are those of the input: `clearance`, `contact`,
+// `friction` of a closure, `friction` and `stop` of a joint.
 #pragma once
 
 #include "core/topology/record_check.h"
@@ -12,6 +12,9 @@ void check_friction(const Friction& friction, RecordCheck& record);
 
 // Of a revolute, prismatic or cylindrical joint; a surface that turns has a radius.
 void check_joint_friction(const Joint& joint, RecordCheck& record);
+
+// Precondition: the joint has stops. On coordinates that are no quaternion; low below high.
+void check_stops(const Joint& joint, RecordCheck& record);
 
 // Precondition: the closure's model is clearance. Revolute only. The bearing has a radius, larger
 // than the clearance, wherever friction or stiffness asks for it; stiffness from materials asks for

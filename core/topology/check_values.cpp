@@ -41,7 +41,8 @@ void check_start(const Joint& joint, RecordCheck& record) {
 }
 
 void check_spring(const Joint& joint, RecordCheck& record) {
-  if (joint.stiffness.empty() && joint.damping.empty() && joint.rest.empty()) return;
+  const bool is_linear = joint.stiffness.empty() && joint.damping.empty() && joint.rest.empty();
+  if (is_linear && !joint.spring_curve) return;
   const int nv = velocity_count(joint.type);
   if (position_count(joint.type, joint.coordinates) != nv) {
     record.report("spring", "a spring acts on coordinates, which a quaternion has not",
@@ -59,6 +60,15 @@ void check_spring(const Joint& joint, RecordCheck& record) {
   check_entries("spring.damping", joint.damping);
   require_count("spring.rest", joint.rest.size(), static_cast<std::size_t>(nv), record);
   record.require_finite("spring.rest", all_finite(joint.rest));
+  if (!joint.spring_curve) return;
+  check_curve(joint.spring_curve->curve, {"spring.table.positions", "spring.table.efforts"},
+              record);
+  const int coordinate = joint.spring_curve->coordinate;
+  if (coordinate >= 0 && coordinate < nv) return;
+  record.report("spring.table.coordinate",
+                "this joint has " + std::to_string(nv) + " coordinates, counted from 0, got " +
+                    std::to_string(coordinate),
+                nv == 0 ? "take the spring off" : "choose a coordinate from 0 on");
 }
 
 // Directions that a closure leaves free turn with its first end. Elements along ground axes can
@@ -178,6 +188,7 @@ void check_joint(const Joint& joint, const std::string& path, std::vector<Proble
   }
   check_start(joint, record);
   check_spring(joint, record);
+  if (joint.stop) check_stops(joint, record);
   if (joint.friction) check_joint_friction(joint, record);
 }
 

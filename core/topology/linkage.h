@@ -115,6 +115,40 @@ struct JointFriction {
   bool operator==(const JointFriction&) const = default;
 };
 
+// A force piecewise linear over a length or a coordinate, constant beyond the first and the last
+// point.
+struct ForceCurve {
+  std::vector<double> at;     // increasing, m or rad
+  std::vector<double> force;  // N or N m
+
+  bool operator==(const ForceCurve&) const = default;
+};
+
+// A moment over an angle or a force over a displacement of one coordinate of a joint, generalised
+// force -curve(q): positive values at positive coordinates drive it back.
+struct JointCurve {
+  int coordinate = 0;
+  ForceCurve curve;
+
+  bool operator==(const JointCurve&) const = default;
+};
+
+// End stops of a joint's coordinates, an entry for each: beyond low and high a contact pushes back
+// with f = K d^n (1 + D d' / v0) (core/laws/normal_contact.h) or, where a damping is given,
+// f = max(K d^n + b d', 0), d the depth.
+struct JointStops {
+  std::vector<double> low, high;  // rad or m; empty: none on that side
+  std::vector<double> stiffness;  // (nv) K, N/m^n or N m/rad^n; 0: the coordinate has no stops
+  double exponent = 1.5;          // n
+  ContactLaw law = ContactLaw::lankarani_nikravesh;
+  double restitution = 1.0;     // of the law; 1 loses nothing
+  std::vector<double> damping;  // (nv) b, N s/m or N m s/rad, in place of law and restitution
+  ApproachSpeed approach = ApproachSpeed::begin;
+  double least_speed = 1.0e-4;  // rad/s or m/s: floor of the approach speed
+
+  bool operator==(const JointStops&) const = default;
+};
+
 // A joint of the spanning tree. X_parent_child = frame * X_joint(q) * child_frame^-1.
 struct Joint {
   std::string name;
@@ -131,9 +165,11 @@ struct Joint {
   bool elastic = false;          // of a flexible link: statics bends it though assembly does not
   // Spring and damper on every coordinate, generalised force -c (q - rest) - b v; empty: none.
   // Not for quaternions.
-  std::vector<double> stiffness;  // (nv) c, N/m or N m/rad
-  std::vector<double> damping;    // (nv) b, N s/m or N m s/rad
-  std::vector<double> rest;       // (nv) empty: zero
+  std::vector<double> stiffness;           // (nv) c, N/m or N m/rad
+  std::vector<double> damping;             // (nv) b, N s/m or N m s/rad
+  std::vector<double> rest;                // (nv) empty: zero
+  std::optional<JointCurve> spring_curve;  // beside them
+  std::optional<JointStops> stop;          // not for quaternions
   std::optional<JointFriction> friction;
 
   bool operator==(const Joint&) const = default;
@@ -335,15 +371,6 @@ struct Coupling {
   std::optional<double> offset;  // empty: as the joints are described to start
 
   bool operator==(const Coupling&) const = default;
-};
-
-// A force piecewise linear over a length or a coordinate, constant beyond the first and the last
-// point.
-struct ForceCurve {
-  std::vector<double> at;     // increasing, m or rad
-  std::vector<double> force;  // N or N m
-
-  bool operator==(const ForceCurve&) const = default;
 };
 
 struct SpringEnd {

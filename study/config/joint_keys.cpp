@@ -6,6 +6,7 @@
 
 #include "study/config/joint_units.h"
 #include "study/config/model_keys.h"
+#include "study/config/read_value.h"
 #include "study/config/rotation_reader.h"
 
 namespace linkstudy {
@@ -57,6 +58,41 @@ Fields<Joint> start_fields() {
   return start;
 }
 
+// Of the coordinate that the table of a spring names: its unit, or that of its effort.
+std::vector<std::string> curve_units(const Tree& joint, bool is_effort) {
+  const Tree* spring = joint.find("spring");
+  const Tree* table = spring == nullptr ? nullptr : spring->find("table");
+  const JointKind kind = joint_kind_of(joint);
+  if (table == nullptr || !kind.is_known) return {};
+  const std::vector<std::string> units = coordinate_units(kind, "rest");
+  const auto index = static_cast<std::size_t>(number_of(*table, "coordinate", 0.0));
+  if (index >= units.size()) return {};
+  if (!is_effort) return {units[index]};
+  return {units[index] == "rad" ? "N m" : "N"};
+}
+
+Fields<JointCurve> joint_curve_fields() {
+  Fields<JointCurve> curve;
+  curve.add("coordinate", &JointCurve::coordinate,
+            {.meaning = "coordinate within the joint, from 0", .range = {.low = 0, .high = 5}});
+  curve.add("positions", [](JointCurve & to) -> auto& { return to.curve.at; },
+            {.meaning = "coordinates, increasing, two or more",
+             .unit = "rad|m",
+             .required = true,
+             .units_by = [](const Tree&, const Tree& joint) { return curve_units(joint, false); }});
+  curve.add("efforts", [](JointCurve & to) -> auto& { return to.curve.force; },
+            {.meaning = "moments or forces at positions against the coordinate (generalised force "
+                        "-effort); linear between, held outside",
+             .unit = "N m|N",
+             .required = true,
+             .units_by = [](const Tree&, const Tree& joint) { return curve_units(joint, true); }});
+  return curve;
+}
+
+void leave_unknown_curve(Joint& joint, Tree& table, const Reading&) {
+  if (!are_known(table, {"coordinate", "positions", "efforts"})) joint.spring_curve.reset();
+}
+
 Fields<Joint> spring_fields() {
   Fields<Joint> spring;
   spring.add("stiffness", &Joint::stiffness,
@@ -70,7 +106,50 @@ Fields<Joint> spring_fields() {
   spring.add("rest", &Joint::rest,
              array_row("rest", {.meaning = "coordinates without spring force; default: all zero",
                                 .unit = "rad|m"}));
+  spring.table("table", &Joint::spring_curve,
+               {.meaning = "moment over angle or force over displacement of one coordinate, beside "
+                           "stiffness; default: none"},
+               joint_curve_fields(), leave_unknown_curve);
   return spring;
+}
+
+Fields<JointStops> stop_fields() {
+  const auto array = [](const char* key, KeyRow row) {
+    follow_type(row, key);
+    row.derive = {};
+    return row;
+  };
+  Fields<JointStops> stop;
+  stop.add("low", &JointStops::low,
+           array("rest", {.meaning = "lower ends, one for each coordinate; default: none",
+                          .unit = "rad|m"}));
+  stop.add("high", &JointStops::high,
+           array("rest", {.meaning = "upper ends, one for each coordinate; default: none",
+                          .unit = "rad|m"}));
+  stop.add("stiffness", &JointStops::stiffness,
+           {.meaning = "K, one for each coordinate, N/m^exponent or N m/rad^exponent; 0: the "
+                       "coordinate has no stops",
+            .range = kNotNegative,
+            .required = true});
+  const Effect of_impact{"joint.*.stop.damping", {}, {}, false};
+  stop.add("exponent", &JointStops::exponent,
+           {.meaning = "power n of the depth; 1 is a linear spring", .range = {.low = 1.0}});
+  stop.add(
+      "law", &JointStops::law,
+      {.meaning = "D of the restitution, as contacts of closures have it", .effects = {of_impact}});
+  stop.add("restitution", &JointStops::restitution,
+           {.meaning = "coefficient of restitution of the law; 1 loses nothing",
+            .range = {.low = 0.0, .high = 1.0, .low_is_out = true},
+            .group = "damping"});
+  stop.add("damping", &JointStops::damping,
+           array("damping", {.meaning = "b of a force max(K d^n + b d', 0), one for each "
+                                        "coordinate, in place of law and restitution",
+                             .unit = "N s/m|N m s/rad",
+                             .range = kNotNegative,
+                             .group = "damping"}));
+  stop.add("approach", &JointStops::approach,
+           {.meaning = "approach speed of the law", .effects = {of_impact}});
+  return stop;
 }
 
 Fields<JointFriction> joint_friction_fields() {
@@ -90,6 +169,12 @@ Fields<JointFriction> joint_friction_fields() {
   return friction;
 }
 
+void leave_unknown_stop(Joint& joint, Tree& stop, const Reading&) {
+  if (!are_known(stop, {"low", "high", "stiffness", "damping", "restitution", "exponent"})) {
+    joint.stop.reset();
+  }
+}
+
 // What the type decides is known with the type only.
 void settle_coordinates(Joint& joint, Tree& table, const Reading& reading) {
   const JointKind kind = joint_kind_of(table);
@@ -98,6 +183,8 @@ void settle_coordinates(Joint& joint, Tree& table, const Reading& reading) {
          {&joint.position, &joint.velocity, &joint.stiffness, &joint.damping, &joint.rest}) {
       list->clear();
     }
+    joint.stop.reset();
+    joint.spring_curve.reset();
     return;
   }
   const auto count = static_cast<std::size_t>(position_count(joint.type, joint.coordinates));
@@ -152,6 +239,10 @@ Fields<Joint> joint_fields() {
               {.meaning = "spring and damper on every coordinate, force -c (q - rest) - b v; not "
                           "for quaternions; default: none"},
               spring_fields());
+  joint.table("stop", &Joint::stop,
+              {.meaning = "end stops, contacts where a coordinate is beyond low or high; channel "
+                          "joint.NAME.stop.force; not for quaternions; default: none"},
+              stop_fields(), leave_unknown_stop);
   joint.switched_table(
       "friction", &Joint::friction,
       {.meaning = "LuGre friction, mu = sigma0 z + sigma1 z' + sigma2 v, under the load that the "

@@ -26,7 +26,7 @@ constexpr std::array<RunNumberText, kRunNumbers> kTexts = {{
     {"h_omega_max", "", "step times highest eigenfrequency"},
     {"steps", "", "accepted steps"},
     {"end_time", "s", "time reached"},
-    {"contacts", "", "contacts of journals and bearings begun"},
+    {"contacts", "", "contacts begun, of journals with bearings and of joints with end stops"},
     {"least_contact_steps", "", "steps in the shortest contact that ended, 0: none; rk4 needs 20"},
 }};
 

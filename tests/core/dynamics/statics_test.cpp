@@ -260,7 +260,7 @@ TEST(Statics, A_lever_on_a_strut_has_the_stiffness_of_its_closed_form) {
   const double length = std::hypot(out, below);
   const double lever = arm * below / length;  // of the line about the pivot
   const double force = weight * r / lever;    // pushes
-  Linkage linkage = pendulum_at(0.05);
+  Linkage linkage = pendulum_at(0.005);       // the strut is pressed there
   PointSpring strut;
   strut.name = "strut";
   strut.first = {kGround, foot};

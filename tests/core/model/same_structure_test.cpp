@@ -48,6 +48,8 @@ MechanismStructure full_structure() {
   m.clearances.push_back(
       {.closure = 0, .bearing_first = false, .hertz = false, .contact_begin = 0, .contact_end = 1});
   m.contacts.push_back({0, 0.0});
+  m.stops.push_back(
+      {.q = 0, .v = 0, .is_high = true, .hertz = true, .is_viscous = false, .contact = 1});
   m.frictions.push_back({.body = 1, .z = 0});
   m.loop_joints.push_back({.group = 0, .body = 1});
   m.loop_rows = m.cut_rows;
@@ -118,14 +120,21 @@ TEST(SameStructure, Counts_every_member_of_contacts_friction_springs_and_loads) 
        [](M& m) { m.clearances[0].free_bristle = FreeBristle::hold; },
        [](M& m) { m.clearances[0].contact_begin = 9; },
        [](M& m) { m.clearances[0].contact_end = 9; }});
-  expect_each_counts<ContactStructure>({[](M& m) { m.contacts[0].clearance = 9; },
-                                        [](M& m) { m.contacts[0].side = 0.5; },
-                                        [](M& m) { m.contacts[0].z = 9; }});
+  expect_each_counts<ContactStructure>(
+      {[](M& m) { m.contacts[0].clearance = 9; }, [](M& m) { m.contacts[0].side = 0.5; },
+       [](M& m) { m.contacts[0].z = 9; }, [](M& m) { m.contacts[0].stop = 9; }});
+  expect_each_counts<StopStructure>({[](M& m) { m.stops[0].q = 9; }, [](M& m) { m.stops[0].v = 9; },
+                                     [](M& m) { m.stops[0].is_high = false; },
+                                     [](M& m) { m.stops[0].hertz = false; },
+                                     [](M& m) { m.stops[0].is_viscous = true; },
+                                     [](M& m) { m.stops[0].approach = ApproachSpeed::greatest; },
+                                     [](M& m) { m.stops[0].contact = 9; }});
   expect_each_counts<JointFrictionStructure>(
       {[](M& m) { m.frictions[0].body = 9; }, [](M& m) { m.frictions[0].turn = 9; },
        [](M& m) { m.frictions[0].slide = 9; }, [](M& m) { m.frictions[0].z = 9; }});
   expect_each_counts<JointSpring>(
-      {[](M& m) { m.joint_springs[0].q = 9; }, [](M& m) { m.joint_springs[0].v = 9; }});
+      {[](M& m) { m.joint_springs[0].q = 9; }, [](M& m) { m.joint_springs[0].v = 9; },
+       [](M& m) { m.joint_springs[0].curve.end = 9; }, [](M& m) { m.joint_springs[0].bend = 9; }});
   expect_each_counts<PointSpringStructure>(
       {[](M& m) { m.point_springs[0].first = 9; }, [](M& m) { m.point_springs[0].second = 9; },
        [](M& m) { m.point_springs[0].acts = SpringActs::tension; },
@@ -133,7 +142,7 @@ TEST(SameStructure, Counts_every_member_of_contacts_friction_springs_and_loads) 
        [](M& m) { m.point_springs[0].is_driven = true; },
        [](M& m) { m.point_springs[0].course = CourseShape::ramp; },
        [](M& m) { m.point_springs[0].table_begin = 9; },
-       [](M& m) { m.point_springs[0].table_end = 9; }});
+       [](M& m) { m.point_springs[0].table_end = 9; }, [](M& m) { m.point_springs[0].bend = 9; }});
   expect_each_counts<CurveStructure>({[](M& m) { m.point_springs[0].curve.begin = 9; },
                                       [](M& m) { m.point_springs[0].curve.end = 9; }});
   expect_each_counts<LoadStructure>(
@@ -167,9 +176,11 @@ TEST(SameStructure, Counts_every_list_and_number_of_a_mechanism) {
                                           [](M& m) { m.point_springs.clear(); },
                                           [](M& m) { m.clearances.clear(); },
                                           [](M& m) { m.contacts.clear(); },
+                                          [](M& m) { m.stops.clear(); },
                                           [](M& m) { m.frictions.clear(); },
                                           [](M& m) { m.nz = 9; },
                                           [](M& m) { m.table_segments = 9; },
+                                          [](M& m) { m.bent_springs = 9; },
                                           [](M& m) { m.projects = true; },
                                           [](M& m) { m.loop_joints.clear(); },
                                           [](M& m) { m.loop_rows.clear(); }});
