@@ -82,7 +82,8 @@ class DividedBeam {
 // Replaces one link of a linkage by its elements.
 class Expansion {
  public:
-  Expansion(const Link& link, Linkage& linkage) : name_(link.name), beam_(link), to_(linkage) {}
+  Expansion(const Link& link, Linkage& linkage)
+      : name_(link.name), shape_(link.shape), beam_(link), to_(linkage) {}
 
   void run() {
     replace_link();
@@ -126,6 +127,7 @@ class Expansion {
                                   [&](const Joint& joint) { return joint.child == name_; });
     const int root = beam_.element_at(own->child_frame.position);
     own->child = element_name(name_, root);
+    std::ranges::find(to_.links, own->child, &Link::name)->shape = shape_;
     std::vector<Joint> joints;
     for (int k = root + 1; k <= beam_.last(); ++k) joints.push_back(beam_.joint(k, true));
     for (int k = root; k >= 1; --k) joints.push_back(beam_.joint(k, false));
@@ -133,6 +135,7 @@ class Expansion {
   }
 
   const std::string name_;
+  const std::vector<Solid> shape_;
   const DividedBeam beam_;
   Linkage& to_;
 };

@@ -25,8 +25,9 @@ namespace linkstudy {
 // the link (joints, ends of closures, loads, springs, chosen points) goes to the element whose span
 // holds the projection of its point on the beam; where two spans meet, the one towards `end`;
 // beyond the ends, the outermost. A torque has its point too (Load::point), which on a rigid link
-// makes no difference. Loads that follow the link follow the element. Other links are untouched.
-// Precondition: check(linkage) is empty.
+// makes no difference. Loads that follow the link follow the element. The shape of the link is that
+// of the element of its own joint, in whole: to draw it bent is up to who draws. Other links are
+// untouched. Precondition: check(linkage) is empty.
 Linkage expand_flexible_links(const Linkage& linkage);
 
 }  // namespace linkstudy

@@ -130,6 +130,25 @@ void check_sde(const Closure& closure, RecordCheck& record) {
   }
 }
 
+void check_solid(const Solid& solid, RecordCheck record) {
+  if (solid.kind != SolidKind::box) record.require_positive("diameter", solid.diameter);
+  if (solid.kind == SolidKind::cylinder) {
+    record.require_finite("begin", solid.begin.allFinite());
+    record.require_finite("end", solid.end.allFinite());
+    if (solid.begin != solid.end) return;
+    record.report("end", "begin and end are the same point " + text_of(solid.end),
+                  "give the middles of the two faces");
+    return;
+  }
+  record.require_finite("position", solid.frame.position.allFinite());
+  if (solid.kind == SolidKind::sphere) return;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    record.require_positive("sides." + std::to_string(i), solid.sides[i]);
+  }
+  const std::string fault = rotation_fault(solid.frame.rotation);
+  if (!fault.empty()) record.report("rotation", "rotation " + fault, "give a right-handed frame");
+}
+
 }  // namespace
 
 std::string inertia_fault(const Eigen::Matrix3d& inertia) {
@@ -171,6 +190,11 @@ void check_link(const Link& link, const std::string& path, std::vector<Problem>&
                   "positive ones");
   }
   if (link.flexible) check_flexible(link, path, problems);
+  for (std::size_t i = 0; i < link.shape.size(); ++i) {
+    const std::string number = std::to_string(i);
+    check_solid(link.shape[i],
+                {path + ".shape." + number, record.title + ": shape " + number, problems});
+  }
 }
 
 void check_joint(const Joint& joint, const std::string& path, std::vector<Problem>& problems) {

@@ -46,6 +46,22 @@ struct FlexibleBeam {
   bool operator==(const FlexibleBeam&) const = default;
 };
 
+// One of the solids that a link is drawn as; it takes no part in the dynamics.
+//   cylinder  from the middle of one face, `begin`, to that of the other, `end`
+//   box       of `sides` along the axes of `frame`, its middle at the origin
+//   sphere    about the origin of `frame`
+enum class SolidKind { cylinder, box, sphere };
+struct Solid {
+  SolidKind kind = SolidKind::cylinder;
+  Eigen::Vector3d begin = Eigen::Vector3d::Zero();  // cylinder: link frame, m
+  Eigen::Vector3d end = Eigen::Vector3d::UnitX();   // cylinder: link frame, m
+  double diameter = 1.0;                            // cylinder, sphere: m
+  Eigen::Vector3d sides = Eigen::Vector3d::Ones();  // box: m
+  Frame frame;                                      // box, sphere: in the link
+
+  bool operator==(const Solid&) const = default;
+};
+
 struct Link {
   std::string name;
   double mass = 0.0;                                         // kg
@@ -54,6 +70,7 @@ struct Link {
   // are those of the matrix, I_xy = -integral(x y dm).
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
   std::optional<FlexibleBeam> flexible{};
+  std::vector<Solid> shape{};  // none: drawn from joint to joint
 
   bool operator==(const Link&) const = default;
 };

@@ -8,6 +8,12 @@
 namespace linkstudy {
 
 template <>
+inline constexpr auto kWords<SolidKind> =
+    make_words<SolidKind>({{SolidKind::cylinder, "cylinder", "a round bar, a pin, a disc"},
+                           {SolidKind::box, "box", "a flat bar, a plate, a block"},
+                           {SolidKind::sphere, "sphere"}});
+
+template <>
 inline constexpr auto kWords<JointType> =
     make_words<JointType>({{JointType::revolute, "revolute"},
                            {JointType::prismatic, "prismatic"},

@@ -66,6 +66,14 @@ Fields<Link> link_fields() {
                   "stay those of the link",
        .effects = {when_enabled("link.*.flexible")}},
       flexible_fields(), "false: rigid, whatever the table says");
+  // Written beside what acts: it is no surprise that runs do not use it.
+  const Effect in_reports{.key = "verb", .words = {"report"}, .stands_by = true};
+  link.tables("shape", &Link::shape,
+              {.meaning = "solids that the report draws the link as, in place of bars from joint "
+                          "to joint; of no effect on the motion. Those of a flexible link bend "
+                          "with it",
+               .effects = {in_reports}},
+              shape_fields());
   link.finish(move_inertia);
   link.finish(leave_unknown_beam);
   return link;
@@ -116,10 +124,7 @@ Fields<Linkage> linkage_fields() {
 
 }  // namespace
 
-Fields<Frame> frame_fields() {
-  Fields<Frame> frame;
-  frame.add("position", &Frame::position,
-            {.meaning = "origin of the frame in the link", .unit = "m", .counts = {3}});
+Fields<Frame> rotation_fields(const Condition& only) {
   Fields<Frame> rotation;
   rotation.read("axis", {.type = numbers,
                          .meaning = "rotation axis in the link, of any length; goes with angle",
@@ -127,31 +132,45 @@ Fields<Frame> frame_fields() {
                          .counts = {3},
                          .group = "form"});
   rotation.read("angle", {.meaning = "angle about axis (right-hand rule)", .unit = "rad"});
-  const auto add_forms = [](Fields<Frame>& to, const std::string& group, bool required) {
+  const auto add_forms = [](Fields<Frame>& to, const std::string& group, bool required,
+                            const Condition& where) {
     to.read("matrix", {.type = matrix,
                        .meaning = "rotation as three rows; columns are the axes of the frame",
                        .required = required,
-                       .group = group});
+                       .group = group,
+                       .only = where});
     to.read("euler_zyx", {.type = numbers,
                           .meaning = "rotation Rz(psi) Ry(theta) Rx(phi): psi, theta, phi",
                           .unit = "rad",
                           .required = required,
                           .counts = {3},
-                          .group = group});
+                          .group = group,
+                          .only = where});
     to.read("quaternion", {.type = numbers,
                            .meaning = "rotation as a unit quaternion w, x, y, z",
                            .required = required,
                            .counts = {4},
-                           .group = group});
+                           .group = group,
+                           .only = where});
   };
-  add_forms(rotation, "form", true);
+  add_forms(rotation, "form", true, {});
+  Fields<Frame> frame;
   frame.table("rotation",
               {.meaning = "orientation of the frame in the link, in one of four ways",
                .standard = "{ quaternion = [1.0, 0.0, 0.0, 0.0] }",
-               .group = "rotation"},
+               .group = "rotation",
+               .only = only},
               std::move(rotation));
-  add_forms(frame, "rotation", false);
+  add_forms(frame, "rotation", false, only);
   frame.finish(read_rotation);
+  return frame;
+}
+
+Fields<Frame> frame_fields() {
+  Fields<Frame> frame;
+  frame.add("position", &Frame::position,
+            {.meaning = "origin of the frame in the link", .unit = "m", .counts = {3}});
+  frame.append(rotation_fields());
   return frame;
 }
 

@@ -20,6 +20,10 @@ inline constexpr auto kWords<LoadKind> =
 
 // Position, and one of four ways to say a rotation.
 Fields<Frame> frame_fields();
+// The ways alone, where they apply.
+Fields<Frame> rotation_fields(const Condition& only = {});
+// [[link.shape]].
+Fields<Solid> shape_fields();
 // The law of LuGre.
 Fields<Friction> friction_fields();
 // [[link]] flexible.

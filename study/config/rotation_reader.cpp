@@ -132,7 +132,8 @@ void normalise_direction(Vector3d& direction, Tree& value, const Reading& readin
 }
 
 void read_rotation(Frame& frame, Tree& owner, const Reading& reading) {
-  const std::string subject = subject_of(reading.scope) + ": ";
+  std::string subject = subject_of(reading.scope);
+  if (!subject.ends_with(": ")) subject += ": ";
   RotationReader reader(subject, reading.diagnostics);
   const Tree* rotation = owner.find("rotation");
   const bool has_table = rotation != nullptr && rotation->is(Kind::table);

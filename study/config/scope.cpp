@@ -8,10 +8,13 @@ namespace {
 std::string element_title(const Scope& scope) {
   const Tree* name = scope.element->find("name");
   const std::string list(scope.up->key);
+  const Scope* owner = scope.up->up;
+  while (owner != nullptr && owner->element == nullptr) owner = owner->up;
+  const std::string above = owner == nullptr ? std::string() : subject_of(*owner);
   if (name != nullptr && name->is(Tree::Kind::text)) {
-    return fmt::format("{} '{}'", list, name->text);
+    return fmt::format("{}{} '{}'", above, list, name->text);
   }
-  return fmt::format("{} {}", list, scope.index);
+  return fmt::format("{}{} {}", above, list, scope.index);
 }
 
 }  // namespace

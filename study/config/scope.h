@@ -15,7 +15,8 @@ struct Scope {
   std::size_t index = 0;
 };
 
-// "link 'crank': mass", "joint 'A': frame.position", "simulation.step"; of an element "drive 0: ".
+// "link 'crank': mass", "joint 'A': frame.position", "simulation.step"; of an element "drive 0: ",
+// of one in another "link 'crank': shape 0: ".
 std::string subject_of(const Scope& scope);
 
 // The same of a key below.

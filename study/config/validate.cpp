@@ -59,9 +59,15 @@ std::string described_type(const KeyRow& row) {
   return described_type(row, row.type);
 }
 
+// "link.*.shape" is written [[link.shape]].
+std::string header_of(std::string path) {
+  for (std::size_t at = 0; (at = path.find("*.", at)) != std::string::npos;) path.erase(at, 2);
+  return "[[" + path + "]]";
+}
+
 std::string type_remedy(const KeyNode& node) {
   const KeyRow& row = node.row;
-  if (row.type == KeyType::tables) return fmt::format("write [[{}]] before each", node.name);
+  if (row.type == KeyType::tables) return fmt::format("write {} before each", header_of(row.path));
   if (row.type == KeyType::word) return fmt::format("one of {}", fmt::join(row.words, ", "));
   return row.meaning;
 }

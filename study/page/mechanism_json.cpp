@@ -26,6 +26,32 @@ Json vector_of(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};
 }
 
+Json solid_of(const Solid& solid) {
+  Json json = {{"kind", name_of(solid.kind)}};
+  switch (solid.kind) {
+    case SolidKind::cylinder:
+      json["begin"] = vector_of(solid.begin);
+      json["end"] = vector_of(solid.end);
+      json["diameter"] = solid.diameter;
+      break;
+    case SolidKind::box:
+      json["sides"] = vector_of(solid.sides);
+      json["frame"] = frame_of(solid.frame);
+      break;
+    case SolidKind::sphere:
+      json["diameter"] = solid.diameter;
+      json["frame"] = frame_of(solid.frame);
+      break;
+  }
+  return json;
+}
+
+Json shape_of(const Link& link) {
+  Json solids = Json::array();
+  for (const Solid& solid : link.shape) solids.push_back(solid_of(solid));
+  return solids;
+}
+
 bool is_loose(const Closure& closure) {
   return closure.model == ClosureModel::clearance;
 }
@@ -63,7 +89,8 @@ class Scene {
       const bool is_ground = link == run_.linkage.links.end();
       all.push_back({{"name", name},
                      {"mass", is_ground ? Json(nullptr) : Json(link->mass)},
-                     {"center", is_ground ? Json(nullptr) : vector_of(link->center_of_mass)}});
+                     {"center", is_ground ? Json(nullptr) : vector_of(link->center_of_mass)},
+                     {"shape", is_ground ? Json::array() : shape_of(*link)}});
     }
     return all;
   }

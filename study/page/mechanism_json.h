@@ -10,7 +10,11 @@ namespace linkstudy {
 
 // {"title", "load_case", "history": name of its histories, "ended",
 //  "driven": channels that a course drives,
-//  "links": [{"name", "mass", "center"}],
+//  "links": [{"name", "mass", "center",
+//             "shape": [{"kind": "cylinder", "begin", "end", "diameter"},
+//                       {"kind": "box", "sides", "frame"},
+//                       {"kind": "sphere", "diameter", "frame"}], in the link frame; of a flexible
+//             link all are with the element of its own joint, unbent}],
 //  "joints": [{"name", "type", "parent", "child", "parent_frame", "child_frame",
 //              "bends": between two elements of a flexible link; unbent, its frames coincide}],
 //  "closures": [{"name", "type", "model", "radial": clearance in m or null, "first", "second",

@@ -40,6 +40,38 @@ function press(element, key) {
 function spokenBelow(canvas) {
   return canvas.closest("figure").querySelector("output").textContent;
 }
+// Solids as they are built, and how many points of a picture of nothing else they take, and take
+// otherwise when bent a thousandfold.
+function shapesOf(stored) {
+  const {shapes} = new Mechanism(stored, false);
+  const pictures = [[], [1], [1000]].map(([bending]) => pictureOf(stored, bending));
+  const differ = ([a, b]) => a.filter((point, i) => point !== b[i]).length;
+  return {solids: shapes.map(({link, elements, geometry: {boundingBox, attributes}}) => ({
+            link, elements, low: boundingBox.min.toArray(), high: boundingBox.max.toArray(),
+            corners: [...attributes.position.array],
+            bound: attributes.skinIndex ? [...attributes.skinIndex.array] : null})),
+          points: differ(pictures), bentPoints: differ(pictures.slice(1))};
+}
+function pictureOf(stored, bending) {
+  const place = document.createElement("div");
+  place.style = "width: 320px; height: 240px";
+  document.body.append(place);
+  const mechanism = new Mechanism(stored, false);
+  if (bending) mechanism.bending = bending;
+  const geometries = bending ? mechanism.shapes.map((shape) => shape.geometry) : [];
+  mechanism.root.traverse((one) => {
+    if (one.geometry) one.visible = geometries.includes(one.geometry);
+  });
+  const theatre = new Theatre(place, [mechanism]);
+  theatre.show(mechanism.times.at(-1));
+  const {domElement: canvas} = theatre.renderer;
+  const copy = document.createElement("canvas");
+  [copy.width, copy.height] = [canvas.width, canvas.height];
+  copy.getContext("2d").drawImage(canvas, 0, 0);
+  place.remove();
+  return [...new Uint32Array(copy.getContext("2d").getImageData(0, 0, copy.width,
+                                                                copy.height).data.buffer)];
+}
 addEventListener("load", () => setTimeout(() => {
   for (const figure of [...waiting.keys()]) drawIfWaiting(figure);  // on a busy machine, some
   const canvases = [...document.querySelectorAll("canvas")];
@@ -85,6 +117,8 @@ addEventListener("load", () => setTimeout(() => {
       return mechanism.links.map((link) => link.matrix.elements);
     });
   }
+  const [stored] = data.mechanisms;
+  if (stored?.links.some((link) => link.shape.length)) seen.scene.shapes = shapesOf(stored);
   for (const choice of document.querySelectorAll("figure select")) {
     choice.selectedIndex = choice.options.length - 1;
     choice.dispatchEvent(new Event("change"));

@@ -328,6 +328,60 @@ class Report(PageTest):
             if i not in moved:
                 np.testing.assert_array_equal(one, other)
 
+    def test_links_are_drawn_as_they_were_shaped(self):
+        model = Given.tree / "configs" / "mechanisms" / "rsup_flexible.toml"
+        brief = ("-s", "simulation.end_time=0.02", "--csv", Path(self.folder.name) / "run.csv")
+        shaped = run("simulate", model, *brief)
+        self.assertEqual((shaped.returncode, shaped.stderr.count("warning")), (0, 0), shaped.stderr)
+        histories = (Path(self.folder.name) / "run.csv").read_bytes()
+        digest, page = self.keep(model)
+        mechanism = island_of(page)["mechanisms"][0]
+        names = [link["name"] for link in mechanism["links"]]
+        solids = {link["name"]: link["shape"] for link in mechanism["links"] if link["shape"]}
+        self.assertEqual({name: [one["kind"] for one in shape] for name, shape in solids.items()},
+                         {"crank": ["box", "cylinder", "sphere"], "coupler_rfe4": ["cylinder"],
+                          "slider": ["box", "cylinder"], "yoke": ["cylinder"]})
+        self.assertEqual(solids["crank"][0]["sides"], [0.028, 0.1, 0.012])
+        self.assertEqual(solids["crank"][2]["diameter"], 0.034)
+        self.assertEqual(solids["coupler_rfe4"][0], {"kind": "cylinder", "begin": [0, 0, 0],
+                                                     "end": [0, 0.5, 0], "diameter": 0.022})
+        seen = self.check_shown(page, charts=2)["scene"]["shapes"]
+        self.assertGreater(seen["points"], 500)  # of 320 x 240 at the least
+        self.assertGreater(seen["bentPoints"], 50)
+        boxes = {(names[one["link"]], i): (one["low"], one["high"])
+                 for i, one in enumerate(seen["solids"])}
+        for key, low, high in ((("crank", 0), (-0.014, 0, -0.006), (0.014, 0.1, 0.006)),
+                               (("crank", 2), (-0.017, 0.083, -0.017), (0.017, 0.117, 0.017)),
+                               (("slider", 4), (-0.015, -0.03, -0.04), (0.015, 0.03, 0.04))):
+            np.testing.assert_allclose(boxes[key], (low, high), atol=1e-7)  # of 24 bits
+        # Five elements of the coupler, joined in the middles of its four segments.
+        [coupler] = [one for one in seen["solids"] if one["bound"]]
+        self.assertEqual([names[i] for i in coupler["elements"]],
+                         [f"coupler_rfe{k}" for k in range(5)])
+        along = np.reshape(coupler["corners"], (-1, 3))[:, 1]
+        self.assertEqual((along.min(), along.max()), (0, 0.5))
+        np.testing.assert_array_equal(np.reshape(coupler["bound"], (-1, 4))[:, 0],
+                                      np.floor(along / 0.125 + 0.5))
+        # Without shapes it is the same run.
+        text = re.sub(r"^\[\[link\.shape\]\].*\n(.+\n)*", "", model.read_text(), flags=re.M)
+        text = re.sub(r"^shape = \[($(\n.+)*\n\]|.*\])$", "", text, flags=re.M)
+        self.assertNotIn("shape =", re.sub("section = .*|course = .*|law = .*", "", text))
+        plain = Path(self.folder.name) / "plain.toml"
+        plain.write_text(text)
+        self.assertEqual(run("simulate", plain, *brief).returncode, 0)
+        self.assertEqual((Path(self.folder.name) / "run.csv").read_bytes(), histories)
+        again, page = self.keep(plain, "--fresh")
+        self.assertEqual(again, digest)
+        self.assertEqual([link["shape"] for link in island_of(page)["mechanisms"][0]["links"]],
+                         [[]] * len(names))
+
+    def keep(self, model, *options):
+        """The digest of a short run that is kept, and its page."""
+        ran = run("simulate", model, "-o", self.results, "-s", "simulation.end_time=0.02", *options)
+        self.assertEqual(ran.returncode, 0, ran.stderr)
+        page = self.report()
+        return island_of(page)["digest"], page
+
     def test_an_evaluation_of_choice_moves(self):
         self.make("study", "rsrrp_stiffness", "-s", "simulation.end_time=1", "-s",
                   "match.0.window=[0.2, 1]", "-s", "vary.0.values=[1e5, 1e6]")

@@ -1,5 +1,5 @@
-// The mechanism in motion. Links are bars from joint to joint with a ball at their centre of mass,
-// joints are shapes by type, closures show both of their frames, the gap between them and the
+// The mechanism in motion. Links are the solids they were given (shape.js), or bars from joint to
+// joint with a ball at their centre of mass; joints are shapes by type, closures show both of their frames, the gap between them and the
 // force there. Runs lie over each other: the second is drawn as wires.
 
 const kSpeeds = [0.1, 0.25, 0.5, 1, 2, 5];
@@ -30,9 +30,11 @@ class Mechanism {
     this.hinges = stored.links.map((_, i) =>
       stored.joints.find((joint) => joint.bends && joint.child === i) ?? null);
     this.bending = 1;
+    this.shapes = this.makeShapes();
     this.size = this.extent();
     this.root = new THREE.Group();
     this.links = stored.links.map((link, i) => this.addLink(link, i));
+    this.shapes.forEach((shape) => this.addShape(shape));
     stored.joints.forEach((joint) => this.addJoint(joint));
     this.rails = stored.joints.filter((joint) => kSliding.includes(joint.type))
       .map((joint) => this.addRail(joint));
@@ -43,15 +45,16 @@ class Mechanism {
     this.show(this.times[0]);
   }
 
-  // Half of the diagonal of the box in which joints, centres of mass and points move.
+  // Half of the diagonal of the box in which joints, centres of mass, points and shapes move.
   extent() {
     const box = new THREE.Box3();
     const {joints, closures, springs, links, points} = this.stored;
-    const add = (link, place) => {
+    const addBox = (link, part) => {
       for (let i = 0; i < this.times.length; i += Math.ceil(this.times.length / 60)) {
-        box.expandByPoint(place.clone().applyMatrix4(this.poseAt(link, i)));
+        box.union(part.clone().applyMatrix4(this.poseAt(link, i)));
       }
     };
+    const add = (link, place) => addBox(link, new THREE.Box3(place, place));
     joints.forEach((joint) => add(joint.parent, positionOf(joint.parent_frame)));
     closures.forEach((one) => add(one.first, positionOf(one.first_frame)));
     springs.forEach((one) => {
@@ -60,6 +63,7 @@ class Mechanism {
     });
     points.forEach((point) => add(point.link, new THREE.Vector3(...point.position)));
     links.forEach((link, i) => link.center && add(i, new THREE.Vector3(...link.center)));
+    this.shapes.forEach(({link, geometry}) => addBox(link, geometry.boundingBox));
     this.box = box;
     return Math.max(box.getSize(new THREE.Vector3()).length() / 2, 1e-6);
   }
@@ -81,13 +85,10 @@ class Mechanism {
   }
 
   bar(parent, from, to, radius, colour) {
-    const along = to.clone().sub(from);
-    if (along.length() < 1e-3 * this.size) return;
-    const turn = new THREE.Quaternion().setFromUnitVectors(new THREE.Vector3(0, 1, 0),
-      along.clone().normalize());
-    const geometry = new THREE.CylinderBufferGeometry(radius, radius, along.length(), 10);
-    this.place(parent, geometry, colour, new THREE.Matrix4().compose(
-      from.clone().addScaledVector(along, 0.5), turn, new THREE.Vector3(1, 1, 1)));
+    const length = from.distanceTo(to);
+    if (length < 1e-3 * this.size) return;
+    const geometry = new THREE.CylinderBufferGeometry(radius, radius, length, 10);
+    this.place(parent, geometry, colour, fromTo(from, to));
   }
 
   // Where something is attached, in the link frame; where its tree joint holds it comes first.
@@ -104,12 +105,46 @@ class Mechanism {
         .map((s) => new THREE.Vector3(...s.second_position))];
   }
 
+  colourOf(link) {
+    return kColours[(link - 1) % kColours.length];
+  }
+
+  // Of an element of a flexible link, the one with the link's own joint.
+  rootOf(link) {
+    return this.hinges[link] ? this.rootOf(this.hinges[link].parent) : link;
+  }
+
+  isShaped(link) {
+    return this.stored.links[this.rootOf(link)].shape.length > 0;
+  }
+
+  // Of every solid: its link, the elements that it is drawn on, its geometry in the link frame.
+  makeShapes() {
+    const {links} = this.stored;
+    return links.flatMap(({shape}, link) => {
+      const elements = [...links.keys()].filter((i) => this.rootOf(i) === link);
+      const beam = elements.length > 1 ? new BentBeam(
+        elements.map((i) => this.hinges[i]).filter(Boolean)) : null;
+      beam?.sort(elements, (i) => links[i].center);
+      return shape.map((solid) => ({link, elements, geometry: solidGeometry(solid, beam)}));
+    });
+  }
+
+  addShape({link, elements, geometry}) {
+    const material = this.material(this.colourOf(link));
+    if (elements.length === 1) {
+      this.links[link].add(new THREE.Mesh(geometry, material));
+      return;
+    }
+    this.root.add(bentMesh(geometry, material, elements.map((i) => this.links[i])));
+  }
+
   addLink(link, i) {
     const group = new THREE.Group();
     group.matrixAutoUpdate = false;
     this.root.add(group);
-    if (!link.center) return group;  // ground
-    const colour = kColours[(i - 1) % kColours.length];
+    if (!link.center || this.isShaped(i)) return group;  // no centre: ground
+    const colour = this.colourOf(i);
     const [from, ...rest] = this.attachments(i);
     const center = new THREE.Vector3(...link.center);
     for (const to of rest.length ? rest : [center]) {
@@ -138,7 +173,7 @@ class Mechanism {
   }
 
   addJoint(joint) {
-    if (joint.type === "free") return;
+    if (joint.type === "free" || (joint.bends && this.isShaped(joint.child))) return;
     const matrix = frameMatrix(joint.parent_frame);
     this.place(this.links[joint.parent], this.jointShape(joint.type), "#8a9099", matrix);
   }

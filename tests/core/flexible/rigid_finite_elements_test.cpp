@@ -155,6 +155,15 @@ TEST(Expansion, What_is_attached_goes_to_the_element_of_its_span) {
   EXPECT_EQ(element_at(4, 9.0), "beam_rfe4");
 }
 
+TEST(Expansion, The_shape_of_a_link_is_with_the_element_of_its_own_joint) {
+  Linkage described = cantilever({}, 4, 0.4);
+  described.links[0].shape.push_back({.diameter = 0.02});
+  for (const Link& link : expand_flexible_links(described).links) {
+    EXPECT_EQ(link.shape == described.links[0].shape, link.name == "beam_rfe2") << link.name;
+    EXPECT_EQ(link.shape.empty(), link.name != "beam_rfe2") << link.name;
+  }
+}
+
 TEST(Expansion, Where_two_spans_meet_rounding_does_not_choose) {
   for (int n = 1; n <= 60; ++n) {
     for (int k = 1; k <= n; ++k) {

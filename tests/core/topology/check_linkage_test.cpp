@@ -336,5 +336,21 @@ TEST(Check, A_point_is_on_a_link_or_on_ground_at_a_finite_place) {
   EXPECT_THAT(only_message(linkage), HasSubstr("point 'P1': link is not a link, got 'f'"));
 }
 
+TEST(Check, Every_wrong_size_of_a_shape_is_located) {
+  Linkage linkage = make_tree();
+  Solid thin{.diameter = 0.0}, point{.end = Eigen::Vector3d::Zero()};
+  Solid flat{.kind = SolidKind::box, .diameter = 0.0, .sides = {1.0, -1.0, 0.0}};
+  Solid lost{.kind = SolidKind::sphere, .end = Eigen::Vector3d::Zero()};
+  lost.frame.position.x() = std::numeric_limits<double>::infinity();
+  Solid skew{.kind = SolidKind::box};
+  skew.frame.rotation(0, 1) = 0.1;
+  linkage.links[1].shape = {thin, point, flat, lost, skew};
+  EXPECT_THAT(paths(linkage), ElementsAre("link.b.shape.0.diameter", "link.b.shape.1.end",
+                                          "link.b.shape.2.sides.1", "link.b.shape.2.sides.2",
+                                          "link.b.shape.3.position", "link.b.shape.4.rotation"));
+  linkage.links[1].shape = {point};
+  EXPECT_EQ(only_message(linkage), "link 'b': shape 0: begin and end are the same point [0, 0, 0]");
+}
+
 }  // namespace
 }  // namespace linkstudy::check_linkage_test

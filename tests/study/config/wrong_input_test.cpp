@@ -349,6 +349,40 @@ const Wrong kStructure[] = {
      "closure '9S': name must"},
 };
 
+// Each in the place of kYokeInertia.
+const Wrong kShapes[] = {
+    {"one_table_for_solids", kYokeInertia, "inertia = [1, 1, 1]\nshape = @{ kind = \"sphere\" }",
+     "link 'yoke': shape must be an array of tables, got a table",
+     "write [[link.shape]] before each"},
+    {"unknown_solid", kYokeInertia, "inertia = [1, 1, 1]\nshape = [{ kind = @\"sphera\" }]",
+     "link 'yoke': shape 0: kind must be one of cylinder, box, sphere, got 'sphera'",
+     "did you mean 'sphere'?"},
+    {"solid_without_kind", kYokeInertia, "inertia = [1, 1, 1]\nshape = [@{ diameter = 0.01 }]",
+     "link 'yoke': shape 0: kind is missing", "a word in quotes"},
+    {"negative_diameter", kYokeInertia,
+     "inertia = [1, 1, 1]\nshape = [{ kind = \"sphere\", diameter = @\"-2 mm\" }]",
+     "link 'yoke': shape 0: diameter must be positive, got -0.002 m"},
+    {"negative_side", kYokeInertia,
+     "inertia = [1, 1, 1]\nshape = [{ kind = \"box\", sides = [1, @-1, 1] }]",
+     "link 'yoke': shape 0: sides.1 must be positive, got -1 m"},
+    {"sphere_that_turns", kYokeInertia,
+     "inertia = [1, 1, 1]\nshape = [{ kind = \"sphere\", diameter = 1, @euler_zyx = [1, 0, 0] }]",
+     "link 'yoke': shape 0: euler_zyx does not go with kind = 'sphere'", "it goes with kind = box"},
+    {"box_between_points", kYokeInertia,
+     "inertia = [1, 1, 1]\nshape = [{ kind = \"box\", sides = [1, 1, 1], @end = [1, 0, 0] }]",
+     "link 'yoke': shape 0: end does not go with kind = 'box'", "it goes with kind = cylinder"},
+    {"mirrored_box", kYokeInertia,
+     "inertia = [1, 1, 1]\nshape = [{ kind = \"box\", sides = [1, 1, 1], matrix = @[[-1, 0, 0], "
+     "[0, 1, 0], [0, 0, 1]] }]",
+     "link 'yoke': shape 0: matrix must be a rotation, got a reflection", "sign of one axis"},
+    {"cylinder_of_no_length", kYokeInertia,
+     "inertia = [1, 1, 1]\nshape = [{ kind = \"cylinder\", end = @[0, 0, 0], diameter = 1 }]",
+     "link 'yoke': shape 0: begin and end are the same point", "two faces"},
+    {"second_solid_without_size", kYokeInertia,
+     "inertia = [1, 1, 1]\nshape = [{ kind = \"sphere\", diameter = 1 }, @{ kind = \"box\" }]",
+     "link 'yoke': shape 1: sides is missing", "an array of numbers in m"},
+};
+
 const Wrong kSyntax[] = {
     {"open_text", "name = \"resistance\"", "name = \"resistance@", "not TOML"},
     {"repeated_key", "mass = 1.5", "mass = 1.5\nmass = @2.5", "not TOML"},
@@ -377,6 +411,7 @@ INSTANTIATE_TEST_SUITE_P(Words, WrongModel, ::testing::ValuesIn(kWords), name_of
 INSTANTIATE_TEST_SUITE_P(Wrong, WrongRealJoint, ::testing::ValuesIn(kRealJoints), name_of_case);
 INSTANTIATE_TEST_SUITE_P(Rotations, WrongModel, ::testing::ValuesIn(kRotations), name_of_case);
 INSTANTIATE_TEST_SUITE_P(Structure, WrongModel, ::testing::ValuesIn(kStructure), name_of_case);
+INSTANTIATE_TEST_SUITE_P(Shapes, WrongModel, ::testing::ValuesIn(kShapes), name_of_case);
 INSTANTIATE_TEST_SUITE_P(Syntax, WrongModel, ::testing::ValuesIn(kSyntax), name_of_case);
 
 }  // namespace
