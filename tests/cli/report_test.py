@@ -332,7 +332,7 @@ class Report(PageTest):
         model = Given.tree / "configs" / "mechanisms" / "rsup_flexible.toml"
         brief = ("-s", "simulation.end_time=0.02", "--csv", Path(self.folder.name) / "run.csv")
         shaped = run("simulate", model, *brief)
-        self.assertEqual((shaped.returncode, shaped.stderr.count("warning")), (0, 0), shaped.stderr)
+        self.assertEqual((shaped.returncode, shaped.stderr.count("shape")), (0, 0), shaped.stderr)
         histories = (Path(self.folder.name) / "run.csv").read_bytes()
         digest, page = self.keep(model)
         mechanism = island_of(page)["mechanisms"][0]

@@ -157,7 +157,7 @@ TEST(Expansion, What_is_attached_goes_to_the_element_of_its_span) {
 
 TEST(Expansion, The_shape_of_a_link_is_with_the_element_of_its_own_joint) {
   Linkage described = cantilever({}, 4, 0.4);
-  described.links[0].shape.push_back({.diameter = 0.02});
+  described.links[0].shape.push_back({.diameter = 0.02, .frame = {}});
   for (const Link& link : expand_flexible_links(described).links) {
     EXPECT_EQ(link.shape == described.links[0].shape, link.name == "beam_rfe2") << link.name;
     EXPECT_EQ(link.shape.empty(), link.name != "beam_rfe2") << link.name;

@@ -338,11 +338,11 @@ TEST(Check, A_point_is_on_a_link_or_on_ground_at_a_finite_place) {
 
 TEST(Check, Every_wrong_size_of_a_shape_is_located) {
   Linkage linkage = make_tree();
-  Solid thin{.diameter = 0.0}, point{.end = Eigen::Vector3d::Zero()};
-  Solid flat{.kind = SolidKind::box, .diameter = 0.0, .sides = {1.0, -1.0, 0.0}};
-  Solid lost{.kind = SolidKind::sphere, .end = Eigen::Vector3d::Zero()};
+  Solid thin{.diameter = 0.0, .frame = {}}, point{.end = Eigen::Vector3d::Zero(), .frame = {}};
+  Solid flat{.kind = SolidKind::box, .diameter = 0.0, .sides = {1.0, -1.0, 0.0}, .frame = {}};
+  Solid lost{.kind = SolidKind::sphere, .end = Eigen::Vector3d::Zero(), .frame = {}};
   lost.frame.position.x() = std::numeric_limits<double>::infinity();
-  Solid skew{.kind = SolidKind::box};
+  Solid skew{.kind = SolidKind::box, .frame = {}};
   skew.frame.rotation(0, 1) = 0.1;
   linkage.links[1].shape = {thin, point, flat, lost, skew};
   EXPECT_THAT(paths(linkage), ElementsAre("link.b.shape.0.diameter", "link.b.shape.1.end",

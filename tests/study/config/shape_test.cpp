@@ -35,8 +35,8 @@ TEST(Shape, Solids_are_read_with_their_units_and_frames) {
   const ModelInput input = read_good(drawn_text());
   const std::vector<Solid>& solids = input.linkage.links[0].shape;
   ASSERT_EQ(solids.size(), 3u);
-  EXPECT_EQ(solids[0], (Solid{.end = {0.0, 0.1, 0.0}, .diameter = 0.012}));
-  Solid ball{.kind = SolidKind::sphere, .diameter = 0.03};
+  EXPECT_EQ(solids[0], (Solid{.end = {0.0, 0.1, 0.0}, .diameter = 0.012, .frame = {}}));
+  Solid ball{.kind = SolidKind::sphere, .diameter = 0.03, .frame = {}};
   ball.frame.position.y() = 0.1;
   EXPECT_EQ(solids[1], ball);
   EXPECT_EQ(solids[2].kind, SolidKind::box);

@@ -112,8 +112,8 @@ TEST(StudyCases, A_value_without_effect_on_any_case_is_an_error_that_names_both_
               HasSubstr("closure.S.model = 'cut' ("));
   EXPECT_THAT(errors_of(vary("kinematics.positions", "values = [3, 4]")),
               HasSubstr("has no effect on any case: study does not use it"));
-  const std::string drawn = replaced(
-      kRsrrp, "mass = 0.2", "mass = 0.2\nshape = [{ kind = \"sphere\", diameter = 0.01 }]");
+  const std::string drawn = test::replaced(
+      test::kRsrrp, "mass = 0.2", "mass = 0.2\nshape = [{ kind = \"sphere\", diameter = 0.01 }]");
   EXPECT_THAT(errors_of(vary("link.yoke.shape.0.diameter", "values = [0.01, 0.02]"), drawn),
               HasSubstr("has no effect on any case: study does not use it"));
 }
