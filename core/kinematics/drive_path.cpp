@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -66,9 +67,12 @@ DriveMotion DrivePath::at(double t) const {
     const double end = law.knots.empty() ? duration_ : law.knots.back().begin;
     const bool rests = !goes_on && (t < 0.0 || t > end);
     const CoordinateMotion<double> x = law.at(rests ? std::clamp(t, 0.0, end) : t);
+    // At the end of a smooth way it is still that of the way.
+    const bool jumps = !goes_on && law.law == MotionLaw::smooth;
+    const double inside = jumps ? std::min(t, std::nextafter(end, 0.0)) : t;
     motion.position[i] = x.q;
     motion.rate[i] = rests ? 0.0 : x.v;
-    motion.second_rate[i] = rests ? 0.0 : x.a;
+    motion.second_rate[i] = rests ? 0.0 : law.at(inside).a;
   }
   return motion;
 }

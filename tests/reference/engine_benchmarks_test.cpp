@@ -226,7 +226,7 @@ TEST(EngineSqueezer, Ends_at_the_angles_of_the_ivp_test_set) {
     const auto& names = p.model.mechanism.joint_names;
     const auto body = static_cast<std::size_t>(std::ranges::find(names, joint) - names.begin());
     const auto q = static_cast<std::size_t>(p.model.mechanism.bodies[body].q_begin);
-    EXPECT_NEAR(end.final_state.q[q], angle, 1e-9) << joint;
+    EXPECT_NEAR(end.final_state.q[q], angle, 2e-9) << joint;  // of up to 16 rad
   }
   EXPECT_LT(end.energy_residual_max, 1e-9 * end.energy_scale);
 }

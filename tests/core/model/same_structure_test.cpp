@@ -53,6 +53,10 @@ MechanismStructure full_structure() {
   m.frictions.push_back({.body = 1, .z = 0});
   m.loop_joints.push_back({.group = 0, .body = 1});
   m.loop_rows = m.cut_rows;
+  m.motions.push_back({.q = 0, .v = 0, .law = MotionLaw::speed});
+  m.motion_support = {0};
+  m.couplings.resize(1);
+  m.coupling_terms.push_back({0, 0});
   return m;
 }
 
@@ -88,7 +92,22 @@ TEST(SameStructure, Counts_every_member_of_a_body_and_its_joint) {
                              [](M& m) { m.stages[0].q = 9; }, [](M& m) { m.stages[0].v = 9; }});
   expect_each_counts<Velocity>({[](M& m) { m.velocities[0].body = 9; },
                                 [](M& m) { m.velocities[0].kind = VelocityKind::screw; },
-                                [](M& m) { m.velocities[0].stage = 9; }});
+                                [](M& m) { m.velocities[0].stage = 9; },
+                                [](M& m) { m.velocities[0].motion = 9; }});
+}
+
+TEST(SameStructure, Counts_every_member_of_motions_and_couplings) {
+  expect_each_counts<MotionStructure>(
+      {[](M& m) { m.motions[0].q = 9; }, [](M& m) { m.motions[0].v = 9; },
+       [](M& m) { m.motions[0].law = MotionLaw::sine; }, [](M& m) { m.motions[0].rises = true; },
+       [](M& m) { m.motions[0].knot_begin = 9; }, [](M& m) { m.motions[0].knot_end = 9; },
+       [](M& m) { m.motions[0].support_begin = 9; }, [](M& m) { m.motions[0].support_end = 9; }});
+  expect_each_counts<CouplingStructure>(
+      {[](M& m) { m.couplings[0].row = 9; }, [](M& m) { m.couplings[0].term_begin = 9; },
+       [](M& m) { m.couplings[0].term_end = 9; }, [](M& m) { m.couplings[0].support_begin = 9; },
+       [](M& m) { m.couplings[0].support_end = 9; }});
+  expect_each_counts<CouplingTermStructure>(
+      {[](M& m) { m.coupling_terms[0].q = 9; }, [](M& m) { m.coupling_terms[0].v = 9; }});
 }
 
 TEST(SameStructure, Counts_every_member_of_a_closure_and_its_rows) {
@@ -178,6 +197,11 @@ TEST(SameStructure, Counts_every_list_and_number_of_a_mechanism) {
                                           [](M& m) { m.contacts.clear(); },
                                           [](M& m) { m.stops.clear(); },
                                           [](M& m) { m.frictions.clear(); },
+                                          [](M& m) { m.motions.clear(); },
+                                          [](M& m) { m.motion_support.clear(); },
+                                          [](M& m) { m.knots = 9; },
+                                          [](M& m) { m.couplings.clear(); },
+                                          [](M& m) { m.coupling_terms.clear(); },
                                           [](M& m) { m.nz = 9; },
                                           [](M& m) { m.table_segments = 9; },
                                           [](M& m) { m.bent_springs = 9; },

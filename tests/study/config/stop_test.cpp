@@ -35,7 +35,7 @@ std::string text() {
 }  // namespace
 
 TEST(Stops, Are_read_key_by_key) {
-  const Joint& joint = read_good(text()).linkage.joints[0];
+  const Joint joint = read_good(text()).linkage.joints[0];
   ASSERT_TRUE(joint.stop);
   EXPECT_THAT(joint.stop->low, ElementsAre(-std::numbers::pi / 2.0));
   EXPECT_THAT(joint.stop->high, ElementsAre(2.0));
@@ -51,7 +51,7 @@ TEST(Stops, Are_read_key_by_key) {
 }
 
 TEST(Stops, Have_paths_and_take_a_damping_in_place_of_the_restitution) {
-  const Joint& joint = read_good(text(), {"joint.A.stop.damping=[5.0]", "joint.A.stop.high.0=1.5",
+  const Joint joint = read_good(text(), {"joint.A.stop.damping=[5.0]", "joint.A.stop.high.0=1.5",
                                           "joint.A.spring.table.efforts.2=4"})
                            .linkage.joints[0];
   EXPECT_THAT(joint.stop->damping, ElementsAre(5.0));
