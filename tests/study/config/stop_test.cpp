@@ -52,8 +52,8 @@ TEST(Stops, Are_read_key_by_key) {
 
 TEST(Stops, Have_paths_and_take_a_damping_in_place_of_the_restitution) {
   const Joint joint = read_good(text(), {"joint.A.stop.damping=[5.0]", "joint.A.stop.high.0=1.5",
-                                          "joint.A.spring.table.efforts.2=4"})
-                           .linkage.joints[0];
+                                         "joint.A.spring.table.efforts.2=4"})
+                          .linkage.joints[0];
   EXPECT_THAT(joint.stop->damping, ElementsAre(5.0));
   EXPECT_THAT(joint.stop->high, ElementsAre(1.5));
   EXPECT_EQ(joint.spring_curve->curve.force[2], 4.0);
