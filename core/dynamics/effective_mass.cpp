@@ -6,6 +6,7 @@
 #include "core/dynamics/motion.h"
 #include "core/kinematics/assembly.h"
 #include "core/kinematics/closure_jacobian.h"
+#include "core/model/undriven.h"
 
 namespace linkstudy {
 namespace {
@@ -60,10 +61,7 @@ EffectiveMass compute_effective_mass(const Model& model, const State<double>& s,
   for (int r = c.row_begin; r < c.row_end; ++r) {
     if (is_rotation(m.sde_rows[static_cast<std::size_t>(r)])) ++rotations;
   }
-  std::vector<int> moving;
-  for (int k = 0; k < m.nv; ++k) {
-    if (m.velocities[static_cast<std::size_t>(k)].motion < 0) moving.push_back(k);
-  }
+  const std::vector<int> moving = undriven_velocities(m);
   return {effective(translation_jacobian(model, w, closure, j), mass, moving),
           effective(j.middleRows(c.row_end - rotations, rotations), mass, moving)};
 }

@@ -8,6 +8,7 @@
 #include "core/dynamics/differences.h"
 #include "core/dynamics/spectrum.h"
 #include "core/kinematics/assembly.h"
+#include "core/model/undriven.h"
 #include "core/numerics/rank.h"
 
 namespace linkstudy {
@@ -22,10 +23,7 @@ constexpr double kSplit = 100.0;
 // (nv, f): what cut joints, couplings and motions leave free.
 MatrixXd free_directions(const Model& model, const State<double>& s) {
   const Mechanism& m = model.mechanism;
-  std::vector<int> moving;
-  for (int k = 0; k < m.nv; ++k) {
-    if (m.velocities[static_cast<std::size_t>(k)].motion < 0) moving.push_back(k);
-  }
+  const std::vector<int> moving = undriven_velocities(m);
   const auto n = static_cast<Eigen::Index>(moving.size());
   MatrixXd null = MatrixXd::Identity(n, n);
   if (m.cut_row_count() > 0 && n > 0) {

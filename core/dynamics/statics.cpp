@@ -13,6 +13,7 @@
 #include "core/forces/end_stops.h"
 #include "core/kinematics/assembly.h"
 #include "core/kinematics/scaled_closures.h"
+#include "core/model/undriven.h"
 
 namespace linkstudy {
 namespace {
@@ -176,7 +177,7 @@ StaticsReport solve_statics(const Model& model, State<double>& s) {
 Model with_holding_efforts(const Model& model, const StaticsReport& report) {
   Model held = model;
   for (const int k : model.held) {
-    if (model.mechanism.velocities[static_cast<std::size_t>(k)].motion >= 0) continue;
+    if (is_driven(model.mechanism, k)) continue;
     held.mechanism.loads.push_back({.type = LoadType::drive, .v = k});
     held.parameters.loads.push_back({report.holding[k], 0.0, {}, {}});
   }

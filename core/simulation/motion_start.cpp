@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "core/kinematics/assembly.h"
+#include "core/model/undriven.h"
 #include "core/numerics/rank.h"
 
 namespace linkstudy {
@@ -26,14 +27,6 @@ std::string shown(double x) {
   return text;
 }
 
-std::vector<int> moving_velocities(const Mechanism& m) {
-  std::vector<int> moving;
-  for (int k = 0; k < m.nv; ++k) {
-    if (m.velocities[static_cast<std::size_t>(k)].motion < 0) moving.push_back(k);
-  }
-  return moving;
-}
-
 struct ClosureRanks {
   int all = 0;     // independent equations of the cut joints
   int beside = 0;  // that are so with the driven coordinates at rest
@@ -41,7 +34,7 @@ struct ClosureRanks {
 };
 
 ClosureRanks ranks_of(const Model& model) {
-  const std::vector<int> moving = moving_velocities(model.mechanism);
+  const std::vector<int> moving = undriven_velocities(model.mechanism);
   ClosureRanks ranks{0, 0, static_cast<int>(moving.size())};
   if (model.mechanism.cut_row_count() == 0) return ranks;
   const Eigen::MatrixXd j =

@@ -13,6 +13,7 @@
 #include "core/kinematics/mobility.h"
 #include "core/kinematics/three_turns.h"
 #include "core/model/loop_joints.h"
+#include "core/model/undriven.h"
 #include "core/numerics/rank.h"
 #include "core/simulation/motion_start.h"
 #include "core/simulation/simulate.h"
@@ -250,8 +251,7 @@ Linkage with_deflected_sdes(Linkage linkage) {
 void warn_of_holding(const Model& at_rest, const StaticsReport& statics, Preparation& p) {
   const double slight = kSlightEffort * force_scale(at_rest, statics.time);
   for (const int k : at_rest.held) {
-    const bool is_driven = at_rest.mechanism.velocities[static_cast<std::size_t>(k)].motion >= 0;
-    const double effort = is_driven ? 0.0 : statics.holding[k];
+    const double effort = is_driven(at_rest.mechanism, k) ? 0.0 : statics.holding[k];
     if (std::abs(effort) <= slight) continue;
     p.warnings.push_back("the equilibrium holds " + velocity_name(at_rest.mechanism, k) + " with " +
                          number(effort) + " " + effort_unit(at_rest.mechanism, k) +

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/dynamics/static_balance.h"
+#include "core/model/undriven.h"
 #include "core/simulation/simulate.h"
 #include "core/topology/resting_motions.h"
 
@@ -66,7 +67,7 @@ std::vector<StaticValue> equilibrium_values(const Preparation& preparation,
     values.push_back({series.channels[i].name, series.values[i], series.channels[i].unit});
   }
   for (const int k : model.held) {
-    if (model.mechanism.velocities[static_cast<std::size_t>(k)].motion >= 0) continue;
+    if (is_driven(model.mechanism, k)) continue;
     values.push_back(
         {hold_name(model.mechanism, k), statics.holding[k], effort_unit(model.mechanism, k)});
   }
