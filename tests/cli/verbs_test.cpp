@@ -130,16 +130,22 @@ TEST_F(Verbs, A_run_that_diverges_is_a_result_with_exit_code_3) {
 // Crank up, coupler 60 degrees from the slider's axis, all in the plane x = 0 with the slider free
 // to move along z: the vertical forces of coupler and yoke that the crank bears are its half share.
 TEST_F(Verbs, Simulate_shows_the_model_time_it_has_reached) {
-  const std::string run_of_a_second = "simulate model.toml -s simulation.step=1e-6 --progress ";
-  const Ended bar = run(run_of_a_second + "bar");
-  EXPECT_EQ(bar.code, 0) << bar.err;
+  // As many steps as this machine needs for a bar to be due.
+  std::string long_enough;
+  Ended bar;
+  for (const char* step : {"1e-6", "1e-7", "1e-8"}) {
+    long_enough = std::string("simulate model.toml -s simulation.step=") + step + " --progress ";
+    bar = run(long_enough + "bar");
+    EXPECT_EQ(bar.code, 0) << bar.err;
+    if (bar.err.find('\r') != std::string::npos) break;
+  }
   EXPECT_THAT(bar.err, ::testing::ContainsRegex("\r\\[#+-+\\] 0\\.[0-9]+ of 0\\.2 s"));
   EXPECT_THAT(bar.err, HasSubstr("100%"));
-  EXPECT_THAT(run(run_of_a_second + "none").err, Not(HasSubstr(" of 0.2 s")));
+  EXPECT_THAT(run(long_enough + "none").err, Not(HasSubstr(" of 0.2 s")));
   // In a log no bar, and a line at most every 3 s: none where the run is as short as it should be.
   for (const char* logged : {"line", "auto"}) {
     const auto begin = std::chrono::steady_clock::now();
-    const std::string err = run(run_of_a_second + logged).err;
+    const std::string err = run(long_enough + logged).err;
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
     long lines = 0;
     for (const std::string& line : lines_of(err))
@@ -270,7 +276,7 @@ TEST_F(Verbs, Tune_certifies_a_stiffness_and_replays_it_from_the_journal) {
 
 TEST_F(Verbs, Status_of_a_tune_counts_to_its_budget_until_it_has_its_answer) {
   const Ended cut =
-      run("tune tune.toml -o out -s search.max_evaluations=150 --walltime 0.12 --json");
+      run("tune tune.toml -o out -s search.max_evaluations=150 --walltime 0.02 --json");
   ASSERT_EQ(cut.code, 75) << cut.err;
   EXPECT_EQ(json::parse(cut.out)["status"], "interrupted");
   const json before = json::parse(run("status out --json").out);

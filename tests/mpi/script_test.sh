@@ -29,7 +29,7 @@ reduce = "last"
 END
 }
 write_study short.toml 20.0
-write_study endless.toml 2e3
+write_study endless.toml 2e5
 mkdir "$dir/elsewhere"; cd "$dir/elsewhere" || exit 1
 
 is_working() { grep -q " left" "$dir/$1/linkstudy.log" 2>/dev/null; }

@@ -124,7 +124,7 @@ window = [0.05, 0.2]
 END
 }
 write_study short.toml 400.0  # some seconds each: a signal meets runs under way
-write_study endless.toml 2e3
+write_study endless.toml 2e5
 cd "$dir/elsewhere" || exit 1
 
 submit() {  # OUT ARGUMENTS OF SBATCH...
