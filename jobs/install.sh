@@ -4,7 +4,7 @@
 # Output: the packages that were missing; nothing where none was.
 # As root it installs directly, otherwise through sudo; without either it says what to install.
 # usage: jobs/install.sh [--tests]
-#        --tests: also what tests/run.sh needs (a Slurm, cpack, a browser)
+#        --tests: also what tests/run.sh needs (a Slurm, cpack, a browser, valgrind)
 set -euo pipefail
 
 packages=(
@@ -16,7 +16,7 @@ packages=(
   libjs-chart.js libjs-three gnuplot-nox
   python3 python3-h5py python3-xarray python3-h5netcdf python3-netcdf4
 )
-if [ "${1:-}" = --tests ]; then packages+=(slurm-wlm munge dpkg-dev file chromium); fi
+if [ "${1:-}" = --tests ]; then packages+=(slurm-wlm munge dpkg-dev file chromium valgrind); fi
 
 missing=()
 for package in "${packages[@]}"; do

@@ -6,10 +6,6 @@
 namespace linkstudy {
 namespace {
 
-int native_lanes(InstructionSet isa) {
-  return isa == InstructionSet::avx512 ? 8 : isa == InstructionSet::avx2 ? 4 : 2;
-}
-
 InstructionSet widest() {
   if (machine_has(InstructionSet::avx512)) return InstructionSet::avx512;
   return machine_has(InstructionSet::avx2) ? InstructionSet::avx2 : InstructionSet::baseline;

@@ -13,6 +13,14 @@ namespace linkstudy {
 
 enum class InstructionSet { baseline, avx2, avx512 };
 
+// Doubles that a vector register holds, and how many registers there are.
+constexpr int native_lanes(InstructionSet isa) {
+  return isa == InstructionSet::avx512 ? 8 : isa == InstructionSet::avx2 ? 4 : 2;
+}
+constexpr int vector_registers(InstructionSet isa) {
+  return isa == InstructionSet::avx512 ? 32 : 16;
+}
+
 template <>
 inline constexpr auto kWords<InstructionSet> =
     make_words<InstructionSet>({{InstructionSet::baseline, "baseline"},

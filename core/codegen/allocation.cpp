@@ -17,8 +17,11 @@ bool commutes(Op op) {
 
 class Allocator {
  public:
-  Allocator(const Graph& graph, int slots)
-      : nodes_(graph.nodes()), outputs_(graph.outputs()), place_(nodes_.size()) {
+  Allocator(const Graph& graph, int slots, int registers)
+      : nodes_(graph.nodes()),
+        outputs_(graph.outputs()),
+        place_(nodes_.size()),
+        held_(static_cast<std::size_t>(registers), -1) {
     program_.slots = slots;
     for (Node& n : nodes_) {
       if (n.op == Op::negate) n = {Op::bit_xor, n.a, graph.sign()};
@@ -160,7 +163,7 @@ class Allocator {
   int farthest(int& use_there) {
     int best = -1;
     use_there = -1;
-    for (int r = 0; r < kRegisters; ++r) {
+    for (int r = 0; r < static_cast<int>(held_.size()); ++r) {
       if (is_pinned(r)) continue;
       const Value v = held_[static_cast<std::size_t>(r)];
       if (v < 0) {
@@ -233,7 +236,6 @@ class Allocator {
       if (is_here(x)) pinned_.push_back(place(x).reg);
     });
     Instruction made{Action::operate, n.op};
-    ++program_.operations;
     if (is_fused(n.op)) {
       bring_fused(n, made);
       for_operands(n, [&](Value x) { use(x); });
@@ -332,11 +334,7 @@ class Allocator {
   std::vector<Place> place_;
   std::vector<Value> order_, known_;  // operations; constants and inputs
   std::vector<int> uses_;
-  std::array<Value, kRegisters> held_ = [] {
-    std::array<Value, kRegisters> none;
-    none.fill(-1);
-    return none;
-  }();
+  std::vector<Value> held_;  // by register; -1: none
   std::vector<int> free_slots_;
   std::vector<int> left_slots_;  // read by the present operation for the last time
   std::vector<int> pinned_;      // registers that it reads
@@ -346,8 +344,8 @@ class Allocator {
 
 }  // namespace
 
-Program allocate(const Graph& graph, int slots) {
-  return Allocator(graph, slots).run();
+Program allocate(const Graph& graph, int slots, int registers) {
+  return Allocator(graph, slots, registers).run();
 }
 
 }  // namespace linkstudy::codegen

@@ -1,7 +1,8 @@
-// From a graph to instructions on a few vector registers and a frame in memory: what the graph
-// needs, in the order in which it was made; each value in a register while it is used soon, else in
-// a slot of the frame. When registers run out, the value whose next use is farthest gives way
-// (Belady 1966), and is stored once at most. An operand that would not stay is read from memory.
+// From a graph to instructions on a number of vector registers and a frame in memory: what the
+// graph needs, in the order in which it was made; each value in a register while it is used soon,
+// else in a slot of the frame. When registers run out, the value whose next use is farthest gives
+// way (Belady 1966), and is stored once at most. An operand that would not stay is read from
+// memory.
 #pragma once
 
 #include <vector>
@@ -9,8 +10,6 @@
 #include "core/codegen/graph.h"
 
 namespace linkstudy::codegen {
-
-inline constexpr int kRegisters = 16;
 
 // Where the operands of a fused operation x, y, z stand: x is the register that is overwritten, z
 // may be in memory.
@@ -47,11 +46,11 @@ struct Program {
   std::vector<Instruction> instructions;
   std::vector<SlotValue> constants;
   int slots = 0;
-  int operations = 0;  // without loads, stores and copies
-  int stores = 0;      // of values that had to leave
+  int stores = 0;  // of values that had to leave
 };
 
-// `slots`: of inputs and outputs. Outputs overwrite no input.
-Program allocate(const Graph& graph, int slots);
+// `slots`: of inputs and outputs. Outputs overwrite no input. Programs of a graph for any number of
+// registers have the same constants in the same slots.
+Program allocate(const Graph& graph, int slots, int registers);
 
 }  // namespace linkstudy::codegen

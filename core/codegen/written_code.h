@@ -6,12 +6,10 @@
 #include <memory>
 #include <span>
 
+#include "core/base/isa.h"
 #include "core/codegen/allocation.h"
 
 namespace linkstudy::codegen {
-
-// Numbers of a slot of a frame, side by side: an AVX2 register.
-inline constexpr int kSlotNumbers = 4;
 
 // Pages with code in them.
 class WrittenCode {
@@ -36,8 +34,9 @@ class WrittenCode {
   std::size_t size_;
 };
 
-// The program on frames of kSlotNumbers doubles a slot, 32 bytes aligned, for AVX2 with fused
-// multiply-add; empty on other processors than x86-64.
-std::vector<std::uint8_t> assemble_avx2(const Program& program);
+// The program for AVX2 with fused multiply-add or for AVX-512 (F and DQ), on frames of
+// `slot_numbers` doubles a slot: a call does the first native_lanes(isa) of each, aligned to as
+// many. Empty for the baseline and on other processors than x86-64.
+std::vector<std::uint8_t> assemble(const Program& program, InstructionSet isa, int slot_numbers);
 
 }  // namespace linkstudy::codegen

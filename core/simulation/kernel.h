@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/base/isa.h"
+#include "core/codegen/frame_code.h"
 #include "core/forces/contact_log.h"
 #include "core/model/parameters.h"
 #include "core/simulation/cause.h"
@@ -37,13 +38,16 @@ struct LaneCase {
   double* looks = nullptr;  // rows of core/simulation/looks.h, or none
 };
 
-// Code for a whole step (core/simulation/written_steps.h), for kFrameLanes lanes on each frame.
-inline constexpr int kFrameLanes = 4;
+// Numbers that a slot of a frame has for a kernel of so many lanes: the fewest that code does.
+constexpr int slot_numbers(int lanes) {
+  return lanes < native_lanes(InstructionSet::avx2) ? native_lanes(InstructionSet::avx2) : lanes;
+}
+
+// Code for a whole step (core/simulation/written_steps.h) and the frame of a pack.
 struct StepCode {
-  void (*step)(double* frame) = nullptr;
+  codegen::FrameCode* code = nullptr;
   StepSlots slots;
-  double* frames = nullptr;  // as many as the lanes need, one after the other
-  int frame_numbers = 0;     // in a frame
+  double* frame = nullptr;
   // First channel of each observer, comparisons, reductions and series in this order, among those
   // that the code writes; below 0 of one whose channels it does not write, and when those look.
   const int* first_observed = nullptr;

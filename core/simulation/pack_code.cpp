@@ -13,8 +13,8 @@ constexpr long kOften = 8;  // steps: what is looked at more rarely takes a gene
 PackCode::PackCode(const Mechanism& m, std::span<const LaneCase> cases, long steps,
                    const SimdLevel& level, int lanes) {
   list_observed(m, *cases[0].observers);
-  written_ = written_step(m, cases, observed_, steps, level);
-  if (written_) fill_frames((lanes + kFrameLanes - 1) / kFrameLanes);
+  written_ = written_step(m, cases, observed_, steps, level, slot_numbers(lanes));
+  if (written_) fill_frame();
 }
 
 void PackCode::list_observed(const Mechanism& m, const Observers& form) {
@@ -34,17 +34,14 @@ void PackCode::list_observed(const Mechanism& m, const Observers& form) {
   for (const auto& s : form.series) add(s.sampling, s.channels);
 }
 
-void PackCode::fill_frames(int frames) {
-  frames_.resize(static_cast<std::size_t>(frames * written_->frame_slots));
-  for (int i = 0; i < frames; ++i) {
-    for (const auto& [slot, bits] : written_->constants) {
-      Slot& place = frames_[static_cast<std::size_t>(i * written_->frame_slots + slot)];
-      for (double& number : place.numbers) number = std::bit_cast<double>(bits);
-    }
+void PackCode::fill_frame() {
+  const int numbers = written_->slot_numbers;
+  frame_ = codegen::FrameNumbers(written_->frame_slots * numbers);
+  for (const auto& [slot, bits] : written_->constants) {
+    std::fill_n(frame_.data() + slot * numbers, numbers, std::bit_cast<double>(bits));
   }
-  code_ = {written_->code->function(),          written_->slots, frames_.front().numbers,
-           written_->frame_slots * kFrameLanes, first_.data(),   beyond_.data(),
-           static_cast<int>(beyond_.size())};
+  code_ = {written_->code.get(), written_->slots, frame_.data(),
+           first_.data(),        beyond_.data(),  static_cast<int>(beyond_.size())};
 }
 
 }  // namespace linkstudy

@@ -1,4 +1,4 @@
-// The written step of one pack (core/simulation/written_steps.h) with frames of its own: what a
+// The written step of one pack (core/simulation/written_steps.h) with a frame of its own: what a
 // kernel takes as StepCode.
 #pragma once
 
@@ -27,18 +27,14 @@ class PackCode {
   const StepCode* get() const { return written_ ? &code_ : nullptr; }
 
  private:
-  struct alignas(kFrameLanes * sizeof(double)) Slot {
-    double numbers[kFrameLanes] = {};
-  };
-
   void list_observed(const Mechanism& m, const Observers& form);
-  void fill_frames(int frames);
+  void fill_frame();
 
   std::vector<Channel> observed_;
   std::vector<int> first_;  // by observer
   std::vector<Sampling> beyond_;
   std::shared_ptr<const WrittenStep> written_;
-  std::vector<Slot> frames_;
+  codegen::FrameNumbers frame_;
   StepCode code_;
 };
 

@@ -1,5 +1,5 @@
-// The lanes of a run on the frames of a written step: what goes in and comes out.
-// A step that fails for a lane has changed nothing outside the frames: the general step loop takes
+// The lanes of a run on the frame of a written step: what goes in and comes out.
+// A step that fails for a lane has changed nothing outside the frame: the general step loop takes
 // it from the same state. Code that fails again and again is left.
 #pragma once
 
@@ -15,7 +15,7 @@ template <class Real>
 class WrittenLanes {
  public:
   static constexpr int lanes = RealTraits<Real>::lanes;
-  static constexpr int frames = (lanes + kFrameLanes - 1) / kFrameLanes;
+  static constexpr int width = slot_numbers(lanes);
 
   explicit WrittenLanes(const StepCode* code) : code_(code) {}
 
@@ -51,7 +51,7 @@ class WrittenLanes {
 
   // True if all is well for the lanes asked for, one bit each.
   bool run(unsigned active) {
-    for (int i = 0; i < frames; ++i) code_->step(code_->frames + i * code_->frame_numbers);
+    code_->code->run(code_->frame);
     ++tried_;
     if ((fine() & active) == active) return true;
     ++failed_;
@@ -84,30 +84,22 @@ class WrittenLanes {
   static constexpr long kTrial = 64;        // steps before code may be left
   static constexpr long kMostFailures = 4;  // one in so many is too much
 
-  double* place(int frame, int slot) const {
-    return code_->frames + frame * code_->frame_numbers + slot * kFrameLanes;
-  }
+  double* place(int slot) const { return code_->frame + slot * width; }
 
   void put(int slot, const Real& x) {
-    if constexpr (lanes % kFrameLanes == 0) {
-      for (int i = 0; i < frames; ++i) {
-        std::memcpy(place(i, slot), reinterpret_cast<const double*>(&x) + i * kFrameLanes,
-                    kFrameLanes * sizeof(double));
-      }
+    if constexpr (lanes == width) {
+      std::memcpy(place(slot), &x, width * sizeof(double));
     } else {
-      for (int k = 0; k < kFrameLanes; ++k) place(0, slot)[k] = lane(x, k < lanes ? k : lanes - 1);
+      for (int k = 0; k < width; ++k) place(slot)[k] = lane(x, k < lanes ? k : lanes - 1);
     }
   }
 
   Real get(int slot) const {
     Real x;
-    if constexpr (lanes % kFrameLanes == 0) {
-      for (int i = 0; i < frames; ++i) {
-        std::memcpy(reinterpret_cast<double*>(&x) + i * kFrameLanes, place(i, slot),
-                    kFrameLanes * sizeof(double));
-      }
+    if constexpr (lanes == width) {
+      std::memcpy(&x, place(slot), width * sizeof(double));
     } else {
-      for (int k = 0; k < lanes; ++k) set_lane(x, k, place(0, slot)[k]);
+      for (int k = 0; k < lanes; ++k) set_lane(x, k, place(slot)[k]);
     }
     return x;
   }
@@ -116,7 +108,7 @@ class WrittenLanes {
     unsigned bits = 0;
     for (int k = 0; k < lanes; ++k) {
       std::uint64_t mask = 0;
-      std::memcpy(&mask, place(k / kFrameLanes, code_->slots.fine) + k % kFrameLanes, sizeof mask);
+      std::memcpy(&mask, place(code_->slots.fine) + k, sizeof mask);
       bits |= static_cast<unsigned>(mask & 1u) << k;
     }
     return bits;

@@ -57,6 +57,30 @@ std::vector<Known> known_in_both(std::vector<Known> a, const std::vector<Known>&
   return a;
 }
 
+// None where the machine refuses executable memory.
+std::optional<WrittenStep> place_code(const StepTrace& trace, int slot_numbers) {
+  WrittenStep step;
+  step.slot_numbers = slot_numbers;
+  step.slots = trace.slots;
+  for (const InstructionSet isa : {InstructionSet::avx2, InstructionSet::avx512}) {
+    if (native_lanes(isa) > slot_numbers) continue;
+    const codegen::Program program =
+        codegen::allocate(trace.graph, trace.slots.end, vector_registers(isa));
+    auto page = codegen::WrittenCode::place(codegen::assemble(program, isa, slot_numbers));
+    if (!page) return std::nullopt;
+    step.pages.push_back(std::move(page));
+    step.constants = program.constants;
+    step.frame_slots = std::max(step.frame_slots, program.slots);
+  }
+  const bool is_wide = step.pages.size() > 1;
+  step.code = std::make_unique<codegen::FrameCode>(
+      codegen::FrameCode::Frame{slot_numbers, step.frame_slots,
+                                step.slots.end + static_cast<int>(step.constants.size()),
+                                step.slots.fine},
+      step.pages.front()->function(), is_wide ? step.pages.back()->function() : nullptr);
+  return step;
+}
+
 struct Structure {
   MechanismStructure structure;
   std::size_t numbers;  // of its parameters: chosen points are no structure
@@ -69,7 +93,7 @@ class Library {
  public:
   std::shared_ptr<const WrittenStep> find(const Mechanism& m, std::span<const LaneCase> cases,
                                           const std::vector<Channel>& observed, long steps,
-                                          Kernels choice) {
+                                          Kernels choice, int slot_numbers) {
     const std::lock_guard lock(mutex_);
     std::vector<Known> known = known_in_all(cases);
     Structure& s = structure_of(m, known.size());
@@ -77,17 +101,18 @@ class Library {
     if (!s.traceable) return nullptr;
     const WrittenStep* near = nullptr;
     for (const auto& w : s.written) {
-      if (!same_channels(w->observed, observed)) continue;
+      if (w->slot_numbers != slot_numbers || !same_channels(w->observed, observed)) continue;
       if (serves(w->known, known)) return w;
       near = w.get();
     }
     if (choice != Kernels::written && s.steps < kStepsPerFreedom * (m.nv + 1)) return nullptr;
     if (near) known = known_in_both(std::move(known), near->known);
-    return write(m, *cases[0].parameters, std::move(known), observed, s);
+    return write(m, *cases[0].parameters, std::move(known), observed, slot_numbers, s);
   }
 
   WrittenReport report() {
     const std::lock_guard lock(mutex_);
+    report_.distrusted = codegen::distrusted_count();
     return report_;
   }
 
@@ -108,7 +133,8 @@ class Library {
 
   std::shared_ptr<const WrittenStep> write(const Mechanism& m, const Parameters<double>& sizes,
                                            std::vector<Known> known,
-                                           const std::vector<Channel>& observed, Structure& s) {
+                                           const std::vector<Channel>& observed, int slot_numbers,
+                                           Structure& s) {
     const auto begin = std::chrono::steady_clock::now();
     std::optional<StepTrace> trace;
     try {
@@ -119,15 +145,14 @@ class Library {
       report_.why = e.what();
       return nullptr;
     }
-    const codegen::Program program = codegen::allocate(trace->graph, trace->slots.end);
-    auto code = codegen::WrittenCode::place(codegen::assemble_avx2(program));
-    if (!code) return nullptr;
+    std::optional<WrittenStep> step = place_code(*trace, slot_numbers);
+    if (!step) return nullptr;
+    step->observed = observed;
+    step->known = std::move(known);
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
     ++report_.kernels;
     report_.seconds += spent.count();
-    s.written.push_back(std::make_shared<const WrittenStep>(
-        WrittenStep{trace->slots, observed, std::move(known), program.constants, program.slots,
-                    program.operations, spent.count(), std::move(code)}));
+    s.written.push_back(std::make_shared<const WrittenStep>(*std::move(step)));
     return s.written.back();
   }
 
@@ -142,7 +167,9 @@ Library& library() {
 }
 
 bool may_execute() {
-  static const bool may = codegen::WrittenCode::place(codegen::assemble_avx2({})) != nullptr;
+  static const bool may =
+      codegen::WrittenCode::place(codegen::assemble({}, InstructionSet::avx2,
+                                                    native_lanes(InstructionSet::avx2))) != nullptr;
   return may;
 }
 
@@ -160,9 +187,9 @@ WrittenReport written_report() {
 
 std::shared_ptr<const WrittenStep> written_step(const Mechanism& m, std::span<const LaneCase> cases,
                                                 const std::vector<Channel>& observed, long steps,
-                                                const SimdLevel& level) {
+                                                const SimdLevel& level, int slot_numbers) {
   if (!why_not_written(level).empty()) return nullptr;
-  return library().find(m, cases, observed, steps, level.kernels);
+  return library().find(m, cases, observed, steps, level.kernels, slot_numbers);
 }
 
 bool is_writable(const Mechanism& m, const Channel& channel) {

@@ -10,41 +10,44 @@
 #include <vector>
 
 #include "core/base/isa.h"
+#include "core/codegen/frame_code.h"
 #include "core/codegen/written_code.h"
 #include "core/simulation/kernel.h"
 #include "core/simulation/step_trace.h"
 
 namespace linkstudy {
 
+// For AVX2; where a slot has more numbers, for AVX-512 too (core/codegen/frame_code.h).
 struct WrittenStep {
+  int slot_numbers = 0;
   StepSlots slots;
   std::vector<Channel> observed;
   std::vector<Known> known;
   std::vector<codegen::SlotValue> constants;
   int frame_slots = 0;
-  int operations = 0;
-  double seconds = 0.0;  // it took to write
-  std::unique_ptr<codegen::WrittenCode> code;
+  std::vector<std::unique_ptr<codegen::WrittenCode>> pages;
+  std::unique_ptr<codegen::FrameCode> code;
 };
 
 // What has been written in this process.
 struct WrittenReport {
   int kernels = 0;
-  double seconds = 0.0;
-  int untraceable = 0;  // structures whose step cannot be traced
-  std::string why;      // the last of them could not
+  double seconds = 0.0;  // it took
+  int distrusted = 0;    // whose AVX-512 code differed from that for AVX2, which serves
+  int untraceable = 0;   // structures whose step cannot be traced
+  std::string why;       // the last of them could not
 };
 WrittenReport written_report();
 
 // Why this process runs the general step loop alone, or empty. Asks for executable memory once.
 std::string why_not_written(const SimdLevel& level);
 
-// The step for a pack that writes these channels, or null: its structure cannot be traced, this
-// machine has no AVX2 or refuses executable memory, or what is left to run is too little to gain by
-// it. May be called by several threads.
+// The step for a pack that writes these channels, on a frame of `slot_numbers` a slot, or null: its
+// structure cannot be traced, this machine has no AVX2 or refuses executable memory, or what is
+// left to run is too little to gain by it. May be called by several threads.
 std::shared_ptr<const WrittenStep> written_step(const Mechanism& m, std::span<const LaneCase> cases,
                                                 const std::vector<Channel>& observed, long steps,
-                                                const SimdLevel& level);
+                                                const SimdLevel& level, int slot_numbers);
 
 // False of channels that are fitted lane by lane: reactions shared in loops.
 bool is_writable(const Mechanism& m, const Channel& channel);

@@ -9,6 +9,13 @@ namespace {
 
 constexpr double kMostCorrelated = 0.9999;
 
+// Boost fills its tables when the program begins, with numbers that are 0 to valgrind, whose long
+// double has 64 bits: no reason to end there. Confidence is below 1, so that nothing overflows
+// here.
+namespace policies = boost::math::policies;
+using StudentsT = boost::math::students_t_distribution<
+    double, policies::policy<policies::overflow_error<policies::ignore_error>>>;
+
 double correlate(const Vector& e, double parameters) {
   const auto n = static_cast<double>(e.size());
   const double square = e.squaredNorm();
@@ -42,7 +49,7 @@ ResidualFigures compute_figures(const FitProblem& problem, const Vector& residua
   figures.freedom = figures.effective - p;
   if (!figures.is_usable()) return figures;
   figures.variance = residuals.squaredNorm() / figures.freedom;
-  const boost::math::students_t student(figures.freedom);
+  const StudentsT student(figures.freedom);
   figures.quantile = boost::math::quantile(student, 0.5 + 0.5 * options.confidence);
   figures.rise = figures.variance * figures.quantile * figures.quantile;
   return figures;

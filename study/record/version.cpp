@@ -22,15 +22,23 @@ std::string simd_text() {
 
 std::string kernels_text() {
   const std::string why = why_not_written(simd_level());
-  return why.empty() ? "written for each linkage (AVX2)" : "general (" + why + ")";
+  if (!why.empty()) return "general (" + why + ")";
+  const bool is_wide = simd_level().lanes == native_lanes(InstructionSet::avx512);
+  return fmt::format("written for each linkage ({})", is_wide ? "AVX-512" : "AVX2");
 }
 
 std::string written_text() {
-  const WrittenReport report = written_report();
+  return written_text(written_report());
+}
+
+std::string written_text(const WrittenReport& report) {
   std::string text;
   if (report.kernels > 0) {
     text = fmt::format("{} step kernel{} written in {:.1f} ms", report.kernels,
                        report.kernels == 1 ? "" : "s", 1e3 * report.seconds);
+  }
+  if (report.distrusted > 0) {
+    text += fmt::format(", {} served by AVX2: AVX-512 gave other bits", report.distrusted);
   }
   if (report.untraceable > 0) {
     text += fmt::format("{}{} structure{} by the general loop alone ({})", text.empty() ? "" : ", ",

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/isa.h"
+#include "study/record/version.h"
 #include "study/store/directory.h"
 #include "study/store/file.h"
 #include "study/store/results_file.h"
@@ -197,7 +198,22 @@ void StudyRecord::set_answer(AnswerKind kind, const std::string& json, std::vect
   for (const NamedText& text : answer_texts(results_.answers.front())) journal_.append(text);
 }
 
+void StudyRecord::note_kernels() {
+  const std::string written = written_text();
+  NamedText now{"kernels", kernels_text()};
+  if (!written.empty()) now.text += ", " + written + " on rank 0";
+  const auto found = std::ranges::find(results_.texts, now.name, &NamedText::name);
+  if (found != results_.texts.end() && found->text == now.text) return;
+  journal_.append(now);
+  if (found == results_.texts.end()) {
+    results_.texts.push_back(std::move(now));
+  } else {
+    *found = std::move(now);
+  }
+}
+
 std::string StudyRecord::write(RunStatus status) {
+  note_kernels();
   journal_.sync();
   results_.status = status;
   results_.evaluations.clear();

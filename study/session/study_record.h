@@ -73,6 +73,7 @@ class StudyRecord {
 
  private:
   void add_traces(TraceSet set);
+  void note_kernels();
 
   std::filesystem::path directory_;
   bool is_made_ = false;  // the directory did not exist before

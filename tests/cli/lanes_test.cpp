@@ -14,6 +14,7 @@ namespace linkstudy::testing::lanes_test {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::MatchesRegex;
 using ::testing::Not;
 
 class Lanes : public Program {
@@ -37,6 +38,13 @@ std::vector<std::string> fused_sets() {
     if (machine_has(isa)) sets.emplace_back(name_of(isa));
   }
   return sets;
+}
+
+// What /provenance says of them.
+std::string kernels_in(const std::string& file) {
+  const std::vector<NamedText> texts = read_results(file).texts;
+  const auto found = std::ranges::find(texts, "kernels", &NamedText::name);
+  return found == texts.end() ? "" : found->text;
 }
 
 TEST_F(Lanes, Change_no_digest_however_many_ranks_there_are) {
@@ -136,8 +144,14 @@ TEST_F(Lanes, Of_written_steps_give_the_bits_of_the_general_loop_and_say_so) {
   ASSERT_EQ(written.code, 0) << written.err;
   EXPECT_EQ(written.out, general.out);
   EXPECT_THAT(general.err, HasSubstr("kernels general (LINKSTUDY_KERNELS=general), "));
-  EXPECT_THAT(written.err, HasSubstr("kernels written for each linkage (AVX2), "));
-  EXPECT_THAT(run("--version").out, HasSubstr("kernels written for each linkage (AVX2)\n"));
+  const std::string set = machine_has(InstructionSet::avx512) ? "AVX-512" : "AVX2";
+  const std::string kernels = "written for each linkage (" + set + ")";
+  EXPECT_THAT(written.err, HasSubstr("kernels " + kernels + ", "));
+  EXPECT_THAT(run("--version").out, HasSubstr("kernels " + kernels + "\n"));
+  EXPECT_THAT(kernels_in(path("written/results.h5")),
+              MatchesRegex(kernels.substr(0, kernels.find('(')) + ".*" + set +
+                           "., [0-9]+ step kernels? written in [0-9.]+ ms on rank 0"));
+  EXPECT_EQ(kernels_in(path("general/results.h5")), "general (LINKSTUDY_KERNELS=general)");
   EXPECT_THAT(read_text(path("written/linkstudy.log")), HasSubstr("written in "));
   EXPECT_THAT(read_text(path("general/linkstudy.log")), Not(HasSubstr("written in ")));
   const Ended wrong = run("study study.toml -o out", "LINKSTUDY_KERNELS=fast");

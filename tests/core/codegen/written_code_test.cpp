@@ -5,144 +5,66 @@
 #include <gtest/gtest.h>
 #include <sys/mman.h>
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <random>
 
 #include "core/base/elementary.h"
 #include "core/base/isa.h"
 #include "core/codegen/traced.h"
-#include "tests/support/same_bits.h"
+#include "tests/core/codegen/drawn_graphs.h"
 
 namespace linkstudy::testing::written_code_test {
 namespace {
 
 using codegen::Graph;
-using codegen::kSlotNumbers;
 using codegen::Op;
 using codegen::Program;
 using codegen::Value;
 using codegen::WrittenCode;
 
-// Which not-a-number results is left open by the standard and by processors alike.
-bool same_number(double a, double b) {
-  return same_bits(a, b) || (std::isnan(a) && std::isnan(b));
-}
-
-double draw_number(std::mt19937_64& random) {
-  constexpr double inf = std::numeric_limits<double>::infinity();
-  static constexpr double odd[] = {0.0,   -0.0,   1.0,    -1.0,   inf,      -inf,
-                                   1e300, -1e300, 1e-300, 5e-324, 2.2e-308, 0.5};
-  std::uniform_real_distribution<double> uniform(-4.0, 4.0);
-  switch (random() % 8) {
-    case 0:
-      return odd[random() % std::size(odd)];
-    case 1:
-      return std::nan("");
-    default:
-      return std::ldexp(uniform(random), static_cast<int>(random() % 40) - 20);
-  }
-}
-
-// 16-byte slots of a frame are not enough for AVX2: 32.
-struct Frame {
-  explicit Frame(int slots) : size(static_cast<std::size_t>(slots * kSlotNumbers)) {
-    numbers = static_cast<double*>(std::aligned_alloc(32, 8 * std::max<std::size_t>(size, 4)));
-    std::fill_n(numbers, size, std::nan(""));
-  }
-  ~Frame() { std::free(numbers); }
-  Frame(const Frame&) = delete;
-  Frame& operator=(const Frame&) = delete;
-  double* slot(int i) { return numbers + i * kSlotNumbers; }
-  std::size_t size;
-  double* numbers;
+// The code that this machine can run, on slots of four numbers and of eight.
+struct Target {
+  InstructionSet isa;
+  int slot_numbers;
 };
+std::vector<Target> targets() {
+  std::vector<Target> all;
+  for (const Target& t : {Target{InstructionSet::avx2, 4}, Target{InstructionSet::avx2, 8},
+                          Target{InstructionSet::avx512, 8}}) {
+    if (machine_has(t.isa)) all.push_back(t);
+  }
+  return all;
+}
 
 class WrittenCodeTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    if (!machine_has(InstructionSet::avx2)) GTEST_SKIP() << "no AVX2 here";
+    if (targets().empty()) GTEST_SKIP() << "no AVX2 here";
   }
 
-  // Runs code and interpreter on random inputs and compares the slots from `inputs` on.
-  static void expect_equal_runs(const Graph& graph, int inputs, int slots, std::uint64_t seed,
-                                Program* made = nullptr) {
-    const Program program = codegen::allocate(graph, slots);
-    const auto code = WrittenCode::place(codegen::assemble_avx2(program));
-    ASSERT_NE(code, nullptr);
-    std::mt19937_64 random(seed);
-    Frame frame(program.slots);
-    for (const auto& c : program.constants) {
-      std::fill_n(frame.slot(c.slot), kSlotNumbers, std::bit_cast<double>(c.bits));
-    }
-    std::vector<std::vector<double>> lanes(kSlotNumbers);
-    for (auto& lane : lanes) lane.assign(static_cast<std::size_t>(slots), 0.0);
-    for (int i = 0; i < inputs; ++i) {
-      for (int k = 0; k < kSlotNumbers; ++k) {
-        frame.slot(i)[k] = lanes[static_cast<std::size_t>(k)][static_cast<std::size_t>(i)] =
-            draw_number(random);
+  // Runs code and interpreter on random inputs and compares all slots.
+  static void expect_equal_runs(const Graph& graph, int inputs, int slots,
+                                std::mt19937_64& random) {
+    for (const auto& [isa, slot_numbers] : targets()) {
+      SCOPED_TRACE(std::string(name_of(isa)) + " on slots of " + std::to_string(slot_numbers));
+      const Program program = codegen::allocate(graph, slots, vector_registers(isa));
+      const auto code = WrittenCode::place(codegen::assemble(program, isa, slot_numbers));
+      ASSERT_NE(code, nullptr);
+      DrawnFrame frame(graph, program, inputs, slots, slot_numbers, random);
+      for (int k = 0; k < slot_numbers; k += native_lanes(isa)) {
+        code->function()(frame.numbers().data() + k);
       }
+      ASSERT_TRUE(frame.is_as_expected());
     }
-    code->function()(frame.numbers);
-    for (int k = 0; k < kSlotNumbers; ++k) {
-      auto& lane = lanes[static_cast<std::size_t>(k)];
-      interpret(graph, lane);
-      for (int i = 0; i < slots; ++i) {
-        const double expected = lane[static_cast<std::size_t>(i)];
-        ASSERT_TRUE(same_number(frame.slot(i)[k], expected))
-            << "seed " << seed << " slot " << i << " lane " << k << ": " << frame.slot(i)[k]
-            << " for " << expected;
-      }
-    }
-    if (made) *made = program;
   }
 };
 
-constexpr Op kOnNumbers[] = {Op::add,    Op::subtract, Op::multiply,    Op::divide,
-                             Op::madd,   Op::msub,     Op::nmadd,       Op::nmsub,
-                             Op::negate, Op::minimum,  Op::square_root, Op::maximum};
-constexpr Op kComparisons[] = {Op::less, Op::less_equal, Op::equal};
-constexpr Op kOnMasks[] = {Op::bit_and, Op::bit_or, Op::bit_xor};
-
-// `breadth`: how far back operands are taken from; what is beyond stays alive to the end.
-void draw_graph(Graph& graph, std::mt19937_64& random, int inputs, int operations, int outputs,
-                std::size_t breadth) {
-  std::vector<Value> numbers, masks;
-  for (int i = 0; i < inputs; ++i) numbers.push_back(graph.input(i));
-  for (const double x : {0.0, -0.0, 1.0, -1.0, 2.0, 0.3}) numbers.push_back(graph.constant(x));
-  masks.push_back(graph.make(Op::less, numbers[0], numbers[1]));
-  const auto any_of = [&](const std::vector<Value>& list) {
-    return list[list.size() - 1 - random() % std::min(breadth, list.size())];
-  };
-  for (int i = 0; i < operations; ++i) {
-    const auto kind = random() % 10;
-    if (kind < 7) {
-      const Op op = kOnNumbers[random() % std::size(kOnNumbers)];
-      const int n = codegen::operand_count(op);
-      const Value a = any_of(numbers), b = any_of(numbers), c = any_of(numbers);
-      numbers.push_back(graph.make(op, a, n > 1 ? b : -1, n > 2 ? c : -1));
-    } else if (kind == 7) {
-      masks.push_back(graph.make(kComparisons[random() % 3], any_of(numbers), any_of(numbers)));
-    } else if (kind == 8) {
-      masks.push_back(graph.make(kOnMasks[random() % 3], any_of(masks), any_of(masks)));
-    } else {
-      numbers.push_back(graph.make(Op::select, any_of(masks), any_of(numbers), any_of(numbers)));
-    }
-  }
-  for (int i = 0; i < outputs; ++i) graph.write(any_of(numbers), inputs + i);
-}
-
 TEST_F(WrittenCodeTest, Computes_what_random_graphs_say) {
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
-    std::mt19937_64 random(seed);
-    Graph graph;
-    const int inputs = 2 + static_cast<int>(random() % 12);
-    const int outputs = 1 + static_cast<int>(random() % 8);
-    const std::size_t breadth = seed % 2 == 0 ? 10 : 1000;
-    draw_graph(graph, random, inputs, static_cast<int>(random() % 300), outputs, breadth);
-    expect_equal_runs(graph, inputs, inputs + outputs, seed);
+    SCOPED_TRACE(seed);
+    DrawnGraph drawn(seed);
+    expect_equal_runs(drawn.graph, drawn.inputs, drawn.slots, drawn.random);
     if (HasFatalFailure()) return;
   }
 }
@@ -160,10 +82,13 @@ TEST_F(WrittenCodeTest, Keeps_more_values_alive_than_there_are_registers) {
   Value sum = last;
   for (const Value v : alive) sum = graph.make(Op::nmadd, v, sum, v);
   graph.write(sum, kMany);
-  Program program;
-  expect_equal_runs(graph, kMany, kMany + 1, 7, &program);
-  EXPECT_GE(program.stores, kMany - codegen::kRegisters - 1);
-  EXPECT_LE(program.stores, kMany);  // each once
+  std::mt19937_64 random(7);
+  expect_equal_runs(graph, kMany, kMany + 1, random);
+  for (const int registers : {16, 32}) {
+    const Program program = codegen::allocate(graph, kMany + 1, registers);
+    EXPECT_GE(program.stores, kMany - registers - 1);
+    EXPECT_LE(program.stores, kMany);  // each once
+  }
 }
 
 TEST_F(WrittenCodeTest, Leaves_its_inputs_and_writes_what_is_known_already) {
@@ -171,7 +96,8 @@ TEST_F(WrittenCodeTest, Leaves_its_inputs_and_writes_what_is_known_already) {
   graph.write(graph.input(0), 1);
   graph.write(graph.constant(2.5), 2);
   graph.write(graph.make(Op::add, graph.input(0), graph.constant(-0.0)), 3);
-  expect_equal_runs(graph, 1, 4, 3);
+  std::mt19937_64 random(3);
+  expect_equal_runs(graph, 1, 4, random);
 }
 
 TEST(Memory, That_may_not_be_executed_gives_no_code) {

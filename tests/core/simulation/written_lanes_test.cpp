@@ -1,24 +1,24 @@
-// Lanes of any number on frames of four: what is put in comes out at its place.
+// Lanes of any number on the slots of a frame: what is put in comes out at its place.
 #include "core/simulation/written_lanes.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cstring>
-#include <vector>
 
 #include "core/base/pack.h"
 
 namespace linkstudy::testing::written_lanes_test {
 namespace {
 
-// y' = y + t in every lane, past the three numbers of gravity; all is well where y is below 100.
+// y' = y + t in four lanes, past the three numbers of gravity; all is well where y is below 100.
+template <int width>
 void step(double* frame) {
-  for (int k = 0; k < kFrameLanes; ++k) {
-    const double y = frame[7 * kFrameLanes + k];
-    frame[9 * kFrameLanes + k] = y + frame[k];
+  for (int k = 0; k < 4; ++k) {
+    const double y = frame[7 * width + k];
+    frame[9 * width + k] = y + frame[k];
     const std::uint64_t fine = y < 100.0 ? ~std::uint64_t{0} : 0;
-    std::memcpy(frame + 12 * kFrameLanes + k, &fine, sizeof fine);
+    std::memcpy(frame + 12 * width + k, &fine, sizeof fine);
   }
 }
 
@@ -26,12 +26,11 @@ template <class Real>
 class Frames {
  public:
   Frames() {
-    code_.step = step;
+    code_.code = &frame_code_;
     code_.slots.state = 7;
     code_.slots.next = 9;
     code_.slots.fine = 12;
-    code_.frames = numbers_.data();
-    code_.frame_numbers = 13 * kFrameLanes;
+    code_.frame = numbers_.data();
   }
 
   // Writes y' over y; true if all is well for the lanes asked for.
@@ -45,7 +44,10 @@ class Frames {
   bool is_there() const { return lanes_.is_there(); }
 
  private:
-  std::vector<double> numbers_ = std::vector<double>(2 * 13 * kFrameLanes);
+  static constexpr int width = slot_numbers(RealTraits<Real>::lanes);
+  codegen::FrameNumbers numbers_{13 * width};
+  static constexpr codegen::FrameCode::Frame kLayout{width, 13, 13, 12};
+  codegen::FrameCode frame_code_{kLayout, step<width>};
   StepCode code_;
   WrittenLanes<Real> lanes_{&code_};
 };

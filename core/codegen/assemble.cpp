@@ -1,4 +1,7 @@
-// The one place that knows an instruction set: Xbyak encodes what the allocation has decided.
+// The one place that knows instructions: Xbyak encodes what the allocation has decided. AVX-512 has
+// the instructions of AVX2 on more and wider registers, but for masks: there a comparison sets a
+// register of one bit a lane. Since masks are values like others here, the bits are spread at once,
+// and `select` is logic on them.
 #include "core/codegen/written_code.h"
 
 #if defined(__x86_64__)
@@ -9,16 +12,25 @@
 #include <xbyak/xbyak.h>
 #pragma GCC diagnostic pop
 
+#include <type_traits>
+
 namespace linkstudy::codegen {
 namespace {
 
-constexpr std::size_t kLongest = 16;  // bytes an instruction, more than any takes
-constexpr int kSlotBytes = 8 * kSlotNumbers;
+constexpr std::size_t kLongest = 24;  // bytes an instruction of a program: at most two of 12
 constexpr std::uint8_t kLess = 1, kLessEqual = 2, kEqual = 0;  // predicates, ordered
 
+// Truth tables of vpternlogq x, y, z: bit 4 x + 2 y + z is what the three bits give.
+constexpr std::uint8_t kXThenZElseY = 0xac, kYThenXElseZ = 0xe2, kYThenZElseX = 0xb8;
+
+// Vector: ymm or zmm registers.
+template <class Vector>
 class Assembler : public Xbyak::CodeGenerator {
  public:
-  Assembler(std::size_t size, std::uint8_t* memory) : CodeGenerator(size, memory) {}
+  static constexpr bool is_wide = std::is_same_v<Vector, Xbyak::Zmm>;
+
+  Assembler(int slot_numbers, std::size_t size, std::uint8_t* memory)
+      : CodeGenerator(size, memory), slot_bytes_(8 * slot_numbers) {}
 
   void write(const Program& program) {
     for (const Instruction& i : program.instructions) write(i);
@@ -27,8 +39,8 @@ class Assembler : public Xbyak::CodeGenerator {
   }
 
  private:
-  static Xbyak::Ymm reg(int i) { return Xbyak::Ymm(i); }
-  Xbyak::Address memory(int slot) const { return ptr[rdi + slot * kSlotBytes]; }
+  static Vector reg(int i) { return Vector(i); }
+  Xbyak::Address memory(int slot) const { return ptr[rdi + slot * slot_bytes_]; }
 
   // f of the operand, a register or a place in memory.
   template <class F>
@@ -54,7 +66,7 @@ class Assembler : public Xbyak::CodeGenerator {
   }
 
   void write_operation(const Instruction& i) {
-    const Xbyak::Ymm to = reg(i.to), a = i.first.reg >= 0 ? reg(i.first.reg) : reg(0);
+    const Vector to = reg(i.to), a = i.first.reg >= 0 ? reg(i.first.reg) : reg(0);
     switch (i.op) {
       case Op::square_root:
         return with(i.first, [&](const auto& x) { vsqrtpd(to, x); });
@@ -63,13 +75,37 @@ class Assembler : public Xbyak::CodeGenerator {
       case Op::shift_right:
         return vpsrlq(to, a, 52);
       case Op::select:
-        return with(i.second, [&](const auto& x) { vblendvpd(to, reg(i.third.reg), x, a); });
+        return with(i.second, [&](const auto& x) { choose(to, a, x, reg(i.third.reg)); });
       default:
         return with(i.second, [&](const auto& x) { write_pair(i.op, to, a, x); });
     }
   }
 
-  void write_pair(Op op, const Xbyak::Ymm& to, const Xbyak::Ymm& a, const Xbyak::Operand& b) {
+  // to := mask ? a : b
+  void choose(const Vector& to, const Vector& mask, const Xbyak::Operand& a, const Vector& b) {
+    if constexpr (!is_wide) {
+      vblendvpd(to, b, a, mask);
+    } else if (a.isZMM() && a.getIdx() == to.getIdx()) {
+      vpternlogq(to, mask, b, kYThenXElseZ);
+    } else if (b.getIdx() == to.getIdx()) {
+      vpternlogq(to, mask, a, kYThenZElseX);
+    } else {
+      if (mask.getIdx() != to.getIdx()) vmovapd(to, mask);
+      vpternlogq(to, b, a, kXThenZElseY);
+    }
+  }
+
+  // To all bits or none.
+  void compare(std::uint8_t predicate, const Vector& to, const Vector& a, const Xbyak::Operand& b) {
+    if constexpr (is_wide) {
+      vcmppd(k1, a, b, predicate);
+      vpmovm2q(to, k1);
+    } else {
+      vcmppd(to, a, b, predicate);
+    }
+  }
+
+  void write_pair(Op op, const Vector& to, const Vector& a, const Xbyak::Operand& b) {
     switch (op) {
       case Op::add:
         return vaddpd(to, a, b);
@@ -90,17 +126,17 @@ class Assembler : public Xbyak::CodeGenerator {
       case Op::bit_xor:
         return vxorpd(to, a, b);
       case Op::less:
-        return vcmppd(to, a, b, kLess);
+        return compare(kLess, to, a, b);
       case Op::less_equal:
-        return vcmppd(to, a, b, kLessEqual);
+        return compare(kLessEqual, to, a, b);
       default:
-        return vcmppd(to, a, b, kEqual);
+        return compare(kEqual, to, a, b);
     }
   }
 
   void write_fused(const Instruction& i) {
     with(i.second, [&](const auto& z) {
-      const Xbyak::Ymm x = reg(i.to), y = reg(i.first.reg);
+      const Vector x = reg(i.to), y = reg(i.first.reg);
       switch (i.form) {
         case FusedForm::x_y_plus_z:
           return write_213(i.op, x, y, z);
@@ -112,34 +148,49 @@ class Assembler : public Xbyak::CodeGenerator {
     });
   }
 
-  void write_213(Op op, const Xbyak::Ymm& x, const Xbyak::Ymm& y, const Xbyak::Operand& z) {
+  void write_213(Op op, const Vector& x, const Vector& y, const Xbyak::Operand& z) {
     if (op == Op::madd) return vfmadd213pd(x, y, z);
     if (op == Op::msub) return vfmsub213pd(x, y, z);
     if (op == Op::nmadd) return vfnmadd213pd(x, y, z);
     vfnmsub213pd(x, y, z);
   }
-  void write_132(Op op, const Xbyak::Ymm& x, const Xbyak::Ymm& y, const Xbyak::Operand& z) {
+  void write_132(Op op, const Vector& x, const Vector& y, const Xbyak::Operand& z) {
     if (op == Op::madd) return vfmadd132pd(x, y, z);
     if (op == Op::msub) return vfmsub132pd(x, y, z);
     if (op == Op::nmadd) return vfnmadd132pd(x, y, z);
     vfnmsub132pd(x, y, z);
   }
-  void write_231(Op op, const Xbyak::Ymm& x, const Xbyak::Ymm& y, const Xbyak::Operand& z) {
+  void write_231(Op op, const Vector& x, const Vector& y, const Xbyak::Operand& z) {
     if (op == Op::madd) return vfmadd231pd(x, y, z);
     if (op == Op::msub) return vfmsub231pd(x, y, z);
     if (op == Op::nmadd) return vfnmadd231pd(x, y, z);
     vfnmsub231pd(x, y, z);
   }
+
+  const int slot_bytes_;
 };
 
-}  // namespace
-
-std::vector<std::uint8_t> assemble_avx2(const Program& program) {
+template <class Vector>
+std::vector<std::uint8_t> assemble_with(const Program& program, int slot_numbers) {
   std::vector<std::uint8_t> code((program.instructions.size() + 2) * kLongest);
-  Assembler assembler(code.size(), code.data());
+  Assembler<Vector> assembler(slot_numbers, code.size(), code.data());
   assembler.write(program);
   code.resize(assembler.getSize());
   return code;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> assemble(const Program& program, InstructionSet isa, int slot_numbers) {
+  switch (isa) {
+    case InstructionSet::avx512:
+      return assemble_with<Xbyak::Zmm>(program, slot_numbers);
+    case InstructionSet::avx2:
+      return assemble_with<Xbyak::Ymm>(program, slot_numbers);
+    case InstructionSet::baseline:
+      break;
+  }
+  return {};
 }
 
 }  // namespace linkstudy::codegen
@@ -148,7 +199,7 @@ std::vector<std::uint8_t> assemble_avx2(const Program& program) {
 
 namespace linkstudy::codegen {
 
-std::vector<std::uint8_t> assemble_avx2(const Program&) {
+std::vector<std::uint8_t> assemble(const Program&, InstructionSet, int) {
   return {};
 }
 

@@ -1,0 +1,169 @@
+// Whole steps written for AVX-512, whatever this machine can run: their bytes are read back by a
+// disassembler and carried out in plain C++ (tests/support/disassembled.h), on states of runs.
+// Every bit that the AVX2 code writes, in all eight lanes.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <bit>
+#include <cmath>
+
+#include "core/base/flush_denormals.h"
+#include "core/simulation/kernels.h"
+#include "core/simulation/prepare.h"
+#include "core/simulation/simulate.h"
+#include "core/simulation/written_steps.h"
+#include "tests/pack/shipped_models.h"
+#include "tests/support/disassembled.h"
+#include "tests/support/same_bits.h"
+
+namespace linkstudy::testing::wide_steps_test {
+namespace {
+
+constexpr int kNarrow = 4, kWide = 8, kSteps = 1500, kBetween = 20;
+using Frame = std::vector<double>;
+
+// Frames of a run as they were before a step.
+struct Seen {
+  codegen::FrameCode::Function step = nullptr;
+  std::size_t numbers = 0;
+  int calls = 0;
+  std::vector<Frame> frames;
+} seen;
+
+void see_and_step(double* frame) {
+  if (seen.calls++ % kBetween == 0) seen.frames.emplace_back(frame, frame + seen.numbers);
+  seen.step(frame);
+}
+
+Cause never(void*, double) {
+  return Cause::ok;
+}
+
+// Four cases of a model, unlike each other, and the step written for them.
+class Cases {
+ public:
+  Cases(const Model& model, const SimulationOptions& options) : model_(model), options_(options) {
+    std::vector<double>& y = start_ = model.start.q;
+    y.insert(y.end(), model.start.v.begin(), model.start.v.end());
+    y.insert(y.end(), model.start.z.begin(), model.start.z.end());
+    y.resize(
+        static_cast<std::size_t>(model.mechanism.nq + model.mechanism.nv + model.mechanism.nz + 2));
+    for (std::size_t i = 0; i < kNarrow; ++i) {
+      Parameters<double>& p = parameters_.at(i) = model.parameters;
+      for (auto& b : p.bodies) b.mass *= 1.0 + 1e-3 * static_cast<double>(i);
+      finals_.at(i) = start_;
+      cases_.push_back(
+          {&p, start_.data(), finals_.at(i).data(), &observers_.at(i), nullptr, &ends_.at(i)});
+    }
+    written_ = written_step(model.mechanism, cases_, {}, kSteps,
+                            {InstructionSet::avx2, kNarrow, Kernels::written}, kNarrow);
+  }
+
+  const WrittenStep* written() const { return written_.get(); }
+  bool touches() const { return ends_[0].contacts > 0.0; }
+
+  std::vector<Frame> frames_of_a_run() {
+    const WrittenStep& w = *written_;
+    codegen::FrameNumbers frame(w.frame_slots * kNarrow);
+    for (const auto& c : w.constants) {
+      std::fill_n(frame.data() + c.slot * kNarrow, kNarrow, std::bit_cast<double>(c.bits));
+    }
+    seen = {w.pages.front()->function(), static_cast<std::size_t>(w.frame_slots * kNarrow), 0, {}};
+    codegen::FrameCode code({kNarrow, w.frame_slots, w.slots.end, w.slots.fine}, see_and_step);
+    const StepCode step{&code, w.slots, frame.data(), nullptr, nullptr, 0};
+    const KernelRun run{
+        0.0, make_step_grid(options_).h, kSteps, 100, options_.drift_limit, never, nullptr, &step};
+    find_kernel(InstructionSet::avx2, kNarrow).run(model_.mechanism, run, cases_.data(), kNarrow);
+    return std::move(seen.frames);
+  }
+
+ private:
+  const Model& model_;
+  const SimulationOptions& options_;
+  std::vector<double> start_;
+  std::array<Parameters<double>, kNarrow> parameters_;
+  std::array<std::vector<double>, kNarrow> finals_;
+  std::array<Observers, kNarrow> observers_;
+  std::array<LaneEnd, kNarrow> ends_;
+  std::vector<LaneCase> cases_;
+  std::shared_ptr<const WrittenStep> written_;
+};
+
+class WideStep {
+ public:
+  WideStep(const Model& model, const WrittenStep& narrow) : narrow_(narrow) {
+    const StepTrace trace = trace_step(model.mechanism, model.parameters, narrow.known, {});
+    program_ =
+        codegen::allocate(trace.graph, trace.slots.end, vector_registers(InstructionSet::avx512));
+    const std::vector<std::vector<std::uint8_t>> code = {
+        codegen::assemble(program_, InstructionSet::avx512, kWide)};
+    code_ = Disassembled::read(code).front();
+  }
+
+  // Two frames side by side.
+  void expect_bits(const Frame& low, const Frame& high) const {
+    const FlushDenormals flush;
+    Frame wide(static_cast<std::size_t>(program_.slots * kWide));
+    for (const auto& c : program_.constants) {
+      std::fill_n(wide.begin() + c.slot * kWide, kWide, std::bit_cast<double>(c.bits));
+    }
+    for (int half = 0; half < 2; ++half) {
+      const Frame& from = half == 0 ? low : high;
+      for (int slot = 0; slot < narrow_.slots.end; ++slot) {
+        std::copy_n(from.begin() + slot * kNarrow, kNarrow,
+                    wide.begin() + slot * kWide + half * kNarrow);
+      }
+    }
+    code_.run(wide);
+    for (int half = 0; half < 2; ++half) {
+      codegen::FrameNumbers expected(narrow_.frame_slots * kNarrow);
+      const Frame& from = half == 0 ? low : high;
+      std::copy(from.begin(), from.end(), expected.data());
+      narrow_.pages.front()->function()(expected.data());
+      for (int slot = 0; slot < narrow_.slots.end; ++slot) {
+        for (int k = 0; k < kNarrow; ++k) {
+          const double x = wide[static_cast<std::size_t>(slot * kWide + half * kNarrow + k)];
+          const double y = expected.data()[slot * kNarrow + k];
+          ASSERT_TRUE(same_bits(x, y) || (std::isnan(x) && std::isnan(y)))
+              << "slot " << slot << " lane " << half * kNarrow + k << ": " << x << " for " << y;
+        }
+      }
+    }
+  }
+
+ private:
+  const WrittenStep& narrow_;
+  codegen::Program program_;
+  Disassembled code_;
+};
+
+}  // namespace
+
+TEST(WideSteps, Of_every_shipped_model_have_the_bits_of_narrow_ones) {
+  if (!machine_has(InstructionSet::avx2)) GTEST_SKIP() << "no AVX2 here";
+  if (!has_disassembler()) GTEST_SKIP() << "no objdump here";
+  int compared = 0, with_contacts = 0;
+  for (const std::string& path : shipped_models()) {
+    for (const ClosureModel closures : {ClosureModel::cut, ClosureModel::sde}) {
+      ModelInput input = read_model(path);
+      const bool changes = set_closures(closures, input.linkage);
+      if (closures == ClosureModel::sde && !changes) continue;
+      SCOPED_TRACE(path + (closures == ClosureModel::cut ? " cut" : " sde"));
+      const Preparation p = prepare(input.linkage, input.options);
+      ASSERT_EQ(p.cause, Cause::ok) << p.message;
+      Cases cases(p.model, input.options);
+      ASSERT_NE(cases.written(), nullptr);
+      const std::vector<Frame> frames = cases.frames_of_a_run();
+      ASSERT_GE(frames.size(), 2u);
+      const WideStep wide(p.model, *cases.written());
+      wide.expect_bits(frames.front(), frames.back());
+      wide.expect_bits(frames[frames.size() / 2], frames[1]);
+      ++compared;
+      with_contacts += cases.touches() ? 1 : 0;
+    }
+  }
+  EXPECT_GE(compared, 30);
+  EXPECT_GE(with_contacts, 1);
+}
+
+}  // namespace linkstudy::testing::wide_steps_test
