@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <limits>
-#include <nlopt.hpp>
+
+#include "study/tune/nlopt_guard.h"
 
 namespace linkstudy::calibration {
 namespace {
@@ -17,50 +17,43 @@ constexpr std::size_t kCallsPerParameter = 40;
 class CheckRun {
  public:
   CheckRun(FitLog& log, nlopt::opt& opt, std::size_t budget, double worst)
-      : log_(log), opt_(opt), budget_(budget), worst_(worst) {}
+      : log_(log), guard_(opt), budget_(budget), worst_(worst) {}
 
-  static double objective(unsigned n, const double* u, double* /*gradient*/, void* run) {
-    return static_cast<CheckRun*>(run)->value(
-        Eigen::Map<const Vector>(u, static_cast<Eigen::Index>(n)));
+  static double objective(unsigned n, const double* u, double* /*gradient*/, void* run) noexcept {
+    auto& check = *static_cast<CheckRun*>(run);
+    double sum = check.worst_;
+    check.guard_.run(
+        [&] { sum = check.value(Eigen::Map<const Vector>(u, static_cast<Eigen::Index>(n))); });
+    return sum;
   }
 
-  void rethrow() const {
-    if (error_) std::rethrow_exception(error_);
-  }
+  void rethrow() const { guard_.rethrow(); }
   std::size_t calls() const { return calls_; }
   bool is_spent() const { return calls_ >= budget_ || log_.is_exhausted(); }
   const Vector& best() const { return best_; }
   double best_sum() const { return best_sum_; }
 
  private:
-  // Nothing may leave through the frames of NLopt's C code.
-  double value(const Vector& u) noexcept {
-    try {
-      if (is_spent()) opt_.force_stop();
-      if (is_spent() || error_) return worst_;
-      ++calls_;
-      const FitSample& sample = *log_.ask({u}).front();
-      if (!sample.is_ok()) return worst_;
-      if (sample.sum < best_sum_) {
-        best_sum_ = sample.sum;
-        best_ = u;
-      }
-      return std::min(sample.sum, worst_);
-    } catch (...) {
-      error_ = std::current_exception();
-      opt_.force_stop();
-      return worst_;
+  double value(const Vector& u) {
+    if (is_spent()) guard_.stop();
+    if (is_spent() || guard_.has_failed()) return worst_;
+    ++calls_;
+    const FitSample& sample = *log_.ask({u}).front();
+    if (!sample.is_ok()) return worst_;
+    if (sample.sum < best_sum_) {
+      best_sum_ = sample.sum;
+      best_ = u;
     }
+    return std::min(sample.sum, worst_);
   }
 
   FitLog& log_;
-  nlopt::opt& opt_;
+  NloptGuard guard_;
   std::size_t budget_;
   double worst_;
   std::size_t calls_ = 0;
   Vector best_;
   double best_sum_ = std::numeric_limits<double>::infinity();
-  std::exception_ptr error_;
 };
 
 // Towards the middle, so that no bound hides it.

@@ -1,10 +1,10 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <nlohmann/json.hpp>
 
 #include "study/cli/input.h"
 #include "study/cli/verb_table.h"
+#include "study/record/counted.h"
 #include "study/report/console.h"
 #include "study/session/exit_code.h"
 #include "study/session/verification.h"
@@ -12,22 +12,7 @@
 namespace linkstudy {
 namespace {
 
-constexpr std::size_t kMostShown = 20;  // disagreements, and pieces of a list
-
-// Ascending numbers, neighbours as first-last: "0-7, 9, 12-13".
-std::string listed(const std::vector<std::uint64_t>& ids) {
-  std::vector<std::string> pieces;
-  for (std::size_t i = 0, end = 0; i < ids.size(); i = end) {
-    for (end = i + 1; end < ids.size() && ids[end] == ids[end - 1] + 1;) ++end;
-    pieces.push_back(end - i == 1 ? fmt::format("{}", ids[i])
-                                  : fmt::format("{}-{}", ids[i], ids[end - 1]));
-  }
-  const std::size_t shown = std::min(pieces.size(), kMostShown);
-  const char* more = pieces.size() > shown ? ", ..." : "";
-  return fmt::format(
-      "{}{}", fmt::join(pieces.begin(), pieces.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
-      more);
-}
+constexpr std::size_t kMostShown = 20;  // disagreements
 
 std::string text_of(const Verification& found) {
   std::string text = fmt::format("{} of {} evaluations run again: {}\n", found.rerun.size(),

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/kinematics/three_turns.h"
+#include "study/record/counted.h"
 #include "study/record/json_number.h"
-#include "study/report/console.h"
 
 namespace linkstudy {
 namespace {
@@ -22,10 +22,6 @@ const char* name_of(SingularState state) {
 
 const char* name_of(SingularKind kind) {
   return kind == SingularKind::lock ? "lock" : kind == SingularKind::branch ? "branch" : "stop";
-}
-
-std::string plural(int count, const std::string& one, const std::string& many) {
-  return fmt::format("{} {}", count, count == 1 ? one : many);
 }
 
 std::string position_text(const Drive& drive, double value) {
@@ -47,7 +43,7 @@ std::string verdict(const KinematicsResult& result) {
     return "a structure that gives way slightly: joints can start to move but not go on";
   }
   if (r.mobility == 0) return "a structure: nothing moves";
-  std::string text = plural(r.mobility, "freedom", "freedoms");
+  std::string text = counted(r.mobility, "freedom");
   if (const int idle = idle_count(r); idle > 0) text += fmt::format(", {} of them idle", idle);
   if (contradicts(result)) text += "; the drives contradict each other";
   if (r.redundant > 0) {
@@ -56,7 +52,7 @@ std::string verdict(const KinematicsResult& result) {
   }
   if (r.instantaneous_mobility > r.mobility) {
     text += fmt::format("; starts at a singular position, where {} meet",
-                        plural(r.instantaneous_mobility, "freedom", "freedoms"));
+                        counted(r.instantaneous_mobility, "freedom"));
   }
   return text;
 }
@@ -170,9 +166,10 @@ void add_notes(const DrivenLinkage& driven, bool is_complete, std::vector<Findin
   }
   if (driven.is_overdriven()) findings.push_back({"note", overdriven_text(driven, is_complete)});
   if (driven.undetermined() > 0) {
+    const int count = driven.undetermined();
     findings.push_back(
-        {"note", fmt::format("{} not determined by the drives: least motion taken",
-                             plural(driven.undetermined(), "freedom is", "freedoms are"))});
+        {"note", fmt::format("{} {} not determined by the drives: least motion taken",
+                             counted(count, "freedom"), count == 1 ? "is" : "are")});
   }
 }
 
@@ -278,10 +275,9 @@ Json idle_json(const MobilityReport& r) {
 // The equations behind it all.
 void add_equations(const KinematicsResult& result, std::vector<Finding>& findings) {
   const MobilityReport& r = result.mobility;
-  findings.push_back(
-      {"parts", fmt::format("{} with ground, {}, {}, {}", plural(r.links, "link", "links"),
-                            plural(r.joints, "joint", "joints"), plural(r.loops, "loop", "loops"),
-                            plural(r.coordinates, "coordinate", "coordinates"))});
+  findings.push_back({"parts", fmt::format("{} with ground, {}, {}, {}", counted(r.links, "link"),
+                                           counted(r.joints, "joint"), counted(r.loops, "loop"),
+                                           counted(r.coordinates, "coordinate"))});
   findings.push_back({"rank", rank_text(r)});
   if (!result.assembly.closed) return;
   const char* state =

@@ -207,6 +207,14 @@ std::vector<StoredCase> split_responses(const std::vector<Response>& responses) 
   return Splitter(responses).run();
 }
 
+std::vector<std::size_t> error_columns(const StoredCase& stored) {
+  std::vector<std::size_t> columns;
+  for (const StoredErrors& errors : stored.matches) {
+    for (std::size_t c = 0; c < errors.channels.size(); ++c) columns.push_back(errors.max + c);
+  }
+  return columns;
+}
+
 std::string group_of(const std::vector<std::string>& channels) {
   if (channels.size() == 1) return channels.front();
   return channels.front().substr(0, channels.front().rfind('.'));

@@ -63,6 +63,9 @@ struct StoredCase {
 };
 std::vector<StoredCase> split_responses(const std::vector<Response>& responses);
 
+// Of all channels of all matches, by the norm max.
+std::vector<std::size_t> error_columns(const StoredCase& stored);
+
 // The part that a list of channels has in common: "closure.S.force".
 std::string group_of(const std::vector<std::string>& channels);
 

@@ -32,12 +32,11 @@ Id id_of(const nlohmann::json& answer) {
   return std::nullopt;
 }
 
+// Of all load cases.
 std::vector<std::size_t> error_columns(const StudyDescription& description) {
   std::vector<std::size_t> columns;
   for (const StoredCase& one : split_responses(description.responses)) {
-    for (const StoredErrors& errors : one.matches) {
-      for (std::size_t c = 0; c < errors.channels.size(); ++c) columns.push_back(errors.max + c);
-    }
+    std::ranges::copy(error_columns(one), std::back_inserter(columns));
   }
   return columns;
 }

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
-#include <numeric>
 
 #include "study/config/file_kind.h"
 #include "study/page/judged_ratios.h"
@@ -14,21 +12,6 @@
 
 namespace linkstudy {
 namespace {
-
-Value usual_value(const std::vector<Evaluation>& rows, const std::vector<std::size_t>& chosen,
-                  std::size_t parameter) {
-  std::map<Value, std::size_t> counts;
-  for (const std::size_t row : chosen) ++counts[rows[row].point.values.at(parameter)];
-  std::size_t most = 0;
-  Value usual;
-  for (const std::size_t row : chosen) {
-    const Value& value = rows[row].point.values.at(parameter);
-    if (counts[value] <= most) continue;
-    most = counts[value];
-    usual = value;
-  }
-  return usual;
-}
 
 bool has_several_steps(const StudyResults& results) {
   const Table* tuning = find_answer_table(results, AnswerKind::tuning, "result");
@@ -79,18 +62,6 @@ bool is_by_ratios(const std::vector<Evaluation>& rows, const std::vector<std::si
          std::abs(middle - std::sqrt(low * high)) < std::abs(middle - (low + high) / 2.0);
 }
 
-std::vector<std::size_t> usual_rows(const std::vector<Evaluation>& rows, std::size_t a,
-                                    std::size_t b) {
-  std::vector<std::size_t> chosen(rows.size());
-  std::iota(chosen.begin(), chosen.end(), std::size_t{0});
-  for (std::size_t p = 0; !rows.empty() && p < rows.front().point.values.size(); ++p) {
-    if (p == a || p == b) continue;
-    const Value usual = usual_value(rows, chosen, p);
-    std::erase_if(chosen, [&](std::size_t row) { return rows[row].point.values.at(p) != usual; });
-  }
-  return chosen;
-}
-
 std::optional<PaperFigure> map_figure(const StudyResults& results) {
   const std::vector<Evaluation> rows = latest_by_id(results.evaluations);
   if (rows.empty()) return std::nullopt;
@@ -98,7 +69,7 @@ std::optional<PaperFigure> map_figure(const StudyResults& results) {
   if (two.size() < 2) return std::nullopt;
   const std::vector<double> ratios = judged_ratios(results, rows);
   if (ratios.empty()) return std::nullopt;
-  const std::vector<std::size_t> chosen = usual_rows(rows, two[0], two[1]);
+  const std::vector<std::size_t> chosen = usual_rows(rows, {two[0], two[1]});
   PaperFigure figure;
   const auto place = [&](std::size_t axis, std::size_t row) {
     return std::get<double>(rows[row].point.values[two[axis]]);

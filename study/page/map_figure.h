@@ -5,11 +5,6 @@
 
 namespace linkstudy {
 
-// Rows where every parameter but these has its most frequent value (of equals the first), words
-// too, one parameter after the other; ascending.
-std::vector<std::size_t> usual_rows(const std::vector<Evaluation>& rows, std::size_t a,
-                                    std::size_t b);
-
 // Parameters of numbers that vary, by index: what a map can have as axes. A tune's step only where
 // it has several.
 std::vector<std::size_t> map_parameters(const StudyResults& results,

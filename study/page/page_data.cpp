@@ -189,7 +189,7 @@ Json map_of(const StudyResults& results, const std::vector<Evaluation>& evaluati
   for (std::size_t i = 0; i < axes.size(); ++i) {
     map["axes"].push_back({{"name", path(i)}, {"log", is_by_ratios(evaluations, all, axes[i])}});
     for (std::size_t j = 0; j < i; ++j) {
-      const std::vector<std::size_t> rows = usual_rows(evaluations, axes[j], axes[i]);
+      const std::vector<std::size_t> rows = usual_rows(evaluations, {axes[j], axes[i]});
       map["pairs"].push_back({{"log",
                                {{path(j), is_by_ratios(evaluations, rows, axes[j])},
                                 {path(i), is_by_ratios(evaluations, rows, axes[i])}}},

@@ -1,4 +1,4 @@
-// Evaluations along one parameter, all others at their usual values: the curves of errors.
+// Evaluations along some parameters, all others at their usual values: curves and maps of errors.
 #pragma once
 
 #include <optional>
@@ -12,8 +12,13 @@ namespace linkstudy {
 std::optional<std::vector<double>> parameter_numbers(const std::vector<Evaluation>& rows,
                                                      std::size_t parameter);
 
-// Rows that have the most frequent value of every other parameter of numbers, ascending in this
-// one; none where it has words.
+// Rows where every parameter but those left free has its most frequent value (of equals the first),
+// words too, one parameter after the other; ascending.
+std::vector<std::size_t> usual_rows(const std::vector<Evaluation>& rows,
+                                    const std::vector<std::size_t>& free);
+
+// Those where this one and parameters of words are free, ascending in this one; none where it has
+// words.
 std::vector<std::size_t> rows_along(const std::vector<Evaluation>& rows, std::size_t parameter);
 
 }  // namespace linkstudy

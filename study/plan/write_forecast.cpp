@@ -4,7 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "study/report/console.h"
+#include "study/record/counted.h"
+#include "study/report/findings.h"
 #include "study/report/write_table.h"
 #include "study/schedule/progress.h"
 #include "study/store/results_tree.h"
@@ -13,11 +14,6 @@ namespace linkstudy::plan {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-// "1 run", "3 runs"
-std::string counted(std::uint64_t count, const std::string& thing) {
-  return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
-}
 
 std::string bytes_text(double bytes) {
   if (bytes < 1e6) return fmt::format("{:.3g} kB", bytes / 1e3);

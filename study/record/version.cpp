@@ -4,6 +4,7 @@
 
 #include "core/base/isa.h"
 #include "core/simulation/written_steps.h"
+#include "study/record/counted.h"
 
 namespace linkstudy {
 
@@ -17,7 +18,7 @@ std::string git_revision() {
 
 std::string simd_text() {
   const SimdLevel level = simd_level();
-  return fmt::format("{}, {} lane{}", name_of(level.isa), level.lanes, level.lanes == 1 ? "" : "s");
+  return fmt::format("{}, {}", name_of(level.isa), counted(level.lanes, "lane"));
 }
 
 std::string kernels_text() {
@@ -34,15 +35,15 @@ std::string written_text() {
 std::string written_text(const WrittenReport& report) {
   std::string text;
   if (report.kernels > 0) {
-    text = fmt::format("{} step kernel{} written in {:.1f} ms", report.kernels,
-                       report.kernels == 1 ? "" : "s", 1e3 * report.seconds);
+    text = fmt::format("{} written in {:.1f} ms", counted(report.kernels, "step kernel"),
+                       1e3 * report.seconds);
   }
   if (report.distrusted > 0) {
     text += fmt::format(", {} served by AVX2: AVX-512 gave other bits", report.distrusted);
   }
   if (report.untraceable > 0) {
-    text += fmt::format("{}{} structure{} by the general loop alone ({})", text.empty() ? "" : ", ",
-                        report.untraceable, report.untraceable == 1 ? "" : "s", report.why);
+    text += fmt::format("{}{} by the general loop alone ({})", text.empty() ? "" : ", ",
+                        counted(report.untraceable, "structure"), report.why);
   }
   return text;
 }

@@ -72,10 +72,6 @@ std::string coloured(std::string_view text) {
   return result;
 }
 
-std::string summary_line(std::string_view label, std::string_view value) {
-  return fmt::format("{:<13}{}\n", label, value);
-}
-
 void print_remarks(const std::vector<Diagnostic>& remarks) {
   for (const Diagnostic& remark : remarks) print_err(to_string(remark) + "\n");
 }

@@ -27,7 +27,4 @@ std::string coloured(std::string_view text);
 
 void print_remarks(const std::vector<Diagnostic>& remarks);
 
-// "LABEL   VALUE\n", aligned.
-std::string summary_line(std::string_view label, std::string_view value);
-
 }  // namespace linkstudy

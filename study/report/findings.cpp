@@ -1,8 +1,12 @@
 #include "study/report/findings.h"
 
-#include "study/report/console.h"
+#include <fmt/format.h>
 
 namespace linkstudy {
+
+std::string summary_line(std::string_view label, std::string_view value) {
+  return fmt::format("{:<13}{}\n", label, value);
+}
 
 std::string text_of(const std::vector<Finding>& findings) {
   std::string text;

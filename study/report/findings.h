@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "study/record/evaluation.h"
@@ -20,7 +21,10 @@ struct FoundNumber {
   double value = 0.0;  // NaN where there is none
 };
 
-// Aligned lines.
+// "LABEL   VALUE\n", aligned.
+std::string summary_line(std::string_view label, std::string_view value);
+
+// A line each.
 std::string text_of(const std::vector<Finding>& findings);
 
 // Columns finding and text.

@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "study/record/json_number.h"
-#include "study/report/console.h"
 #include "study/report/modes_report.h"
 
 namespace linkstudy {

@@ -9,6 +9,7 @@
 
 #include "study/config/input_error.h"
 #include "study/config/measured_reader.h"
+#include "study/record/counted.h"
 #include "study/record/digest.h"
 #include "study/session/study_record.h"
 #include "study/store/results_file.h"
@@ -16,14 +17,6 @@
 
 namespace linkstudy {
 namespace {
-
-constexpr std::size_t kMostListed = 10;
-
-std::string list_text(const std::vector<std::uint64_t>& ids) {
-  if (ids.size() <= kMostListed) return fmt::format("{}", fmt::join(ids, ", "));
-  return fmt::format("{}, ..., {}", fmt::join(ids.begin(), ids.begin() + kMostListed - 1, ", "),
-                     ids.back());
-}
 
 // The evaluation that an input names, in results that are there.
 class EarlierRunFinder {
@@ -64,7 +57,7 @@ class EarlierRunFinder {
     if (!asked.evaluation && evaluations_.size() > 1) {
       report(fmt::format("'{}' has {} evaluations, and it is not said which is meant",
                          asked.directory, evaluations_.size()),
-             fmt::format("evaluation = one of {}", list_text(ended_ok())));
+             fmt::format("evaluation = one of {}", listed(ended_ok())));
       return nullptr;
     }
     const std::uint64_t id = asked.evaluation.value_or(evaluations_.front().point.id);
@@ -72,14 +65,14 @@ class EarlierRunFinder {
         evaluations_, [id](const Evaluation& one) { return one.point.id == id; });
     if (found == evaluations_.end()) {
       report(fmt::format("'{}' has no evaluation {} that has ended", asked.directory, id),
-             fmt::format("there are {}", list_text(ended_ok())));
+             fmt::format("there are {}", listed(ended_ok())));
       return nullptr;
     }
     if (found->status == Cause::ok) return &*found;
     report(fmt::format("evaluation {} of '{}' failed ({}): {}", id, asked.directory,
                        name_of(found->status), found->message),
            ended_ok().empty() ? "no evaluation there ended ok"
-                              : fmt::format("evaluation = one of {}", list_text(ended_ok())));
+                              : fmt::format("evaluation = one of {}", listed(ended_ok())));
     return nullptr;
   }
 

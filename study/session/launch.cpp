@@ -8,6 +8,7 @@
 
 #include "core/base/isa.h"
 #include "study/config/input_error.h"
+#include "study/record/counted.h"
 #include "study/record/version.h"
 #include "study/report/console.h"
 #include "study/schedule/batch_job.h"
@@ -159,9 +160,9 @@ class Launch {
 
   void print_banner(const StudyIdentity& identity) {
     const std::string revision = git_revision().empty() ? "" : " " + git_revision();
-    fmt::print(stderr, "linkstudy {}{}, {} rank{} on {} node{}, SIMD {}, kernels {}, input {}\n",
-               program_version(), revision, transport_.size(), transport_.size() == 1 ? "" : "s",
-               transport_.nodes(), transport_.nodes() == 1 ? "" : "s", simd_text(), kernels_text(),
+    fmt::print(stderr, "linkstudy {}{}, {} on {}, SIMD {}, kernels {}, input {}\n",
+               program_version(), revision, counted(transport_.size(), "rank"),
+               counted(transport_.nodes(), "node"), simd_text(), kernels_text(),
                identity.input_sha256.substr(0, 12));
     const std::string dropped = dropped_text(record_->journal().contents(), record_->directory());
     if (!dropped.empty()) {

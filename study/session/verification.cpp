@@ -58,9 +58,8 @@ void collect_needed(const nlohmann::json& answer, std::vector<std::uint64_t>& id
 std::vector<std::size_t> compared_columns(const StudyDescription& description) {
   std::vector<std::size_t> columns;
   for (const StoredCase& one : split_responses(description.responses)) {
-    for (const StoredErrors& errors : one.matches) {
-      for (std::size_t c = 0; c < errors.channels.size(); ++c) columns.push_back(errors.max + c);
-    }
+    const std::vector<std::size_t> errors = error_columns(one);
+    columns.insert(columns.end(), errors.begin(), errors.end());
     columns.insert(columns.end(), one.responses.begin(), one.responses.end());
   }
   return columns;

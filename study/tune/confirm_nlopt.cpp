@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <exception>
-#include <nlopt.hpp>
 
+#include "study/tune/nlopt_guard.h"
 #include "study/tune/variable_axis.h"
 
 namespace linkstudy::tuning {
@@ -18,7 +17,7 @@ using Clock = std::chrono::steady_clock;
 class Run {
  public:
   Run(EvaluationLog& log, const std::vector<double>& start, std::size_t budget, nlopt::opt& opt)
-      : log_(log), start_(start), budget_(budget), opt_(opt), begin_(Clock::now()) {
+      : log_(log), start_(start), budget_(budget), guard_(opt), begin_(Clock::now()) {
     const Observation* seen = log.find(start, 1.0);
     const double own = seen == nullptr ? 0.0 : std::abs(log.objective(*seen));
     if (own > 0.0 && std::isfinite(own)) scale_ = own;
@@ -33,9 +32,7 @@ class Run {
     static_cast<Run*>(run)->fill_constraints({s, s + n}, {g, g + m});
   }
 
-  void rethrow() const {
-    if (error_) std::rethrow_exception(error_);
-  }
+  void rethrow() const { guard_.rethrow(); }
 
   std::vector<double> point_of(const std::vector<double>& s) const {
     std::vector<double> x = start_;
@@ -69,21 +66,23 @@ class Run {
 
   void stop(const std::string& why) {
     if (stopped_.empty()) stopped_ = why;
-    opt_.force_stop();
+    guard_.stop();
   }
+
+  bool may_go_on() const { return stopped_.empty() && !guard_.has_failed(); }
 
   double find_objective(const std::vector<double>& s) noexcept {
     const std::vector<TunedVariable>& variables = log_.problem().variables;
     if (!log_.problem().response) {
-      keep_exception([&] { count_call(); });
+      guard_.run([&] { count_call(); });
       double sum = 0.0;
       for (std::size_t j = 0; j < s.size(); ++j) sum += variables[j].weight * s[j];
       return sum;
     }
     double value = worst_ + 1.0;  // of what has none
-    keep_exception([&] {
+    guard_.run([&] {
       count_call();
-      const Observation* seen = stopped_.empty() ? observe(s) : nullptr;
+      const Observation* seen = may_go_on() ? observe(s) : nullptr;
       if (seen == nullptr || !std::isfinite(log_.objective(*seen))) return;
       value = log_.objective(*seen) / scale_;
       worst_ = std::max(worst_, value);
@@ -91,25 +90,13 @@ class Run {
     return value;
   }
 
-  // Nothing may leave through the frames of NLopt's C code.
   void fill_constraints(const std::vector<double>& s, Constraints g) noexcept {
     std::fill(g.begin, g.end, kPenalty);
-    keep_exception([&] {
+    guard_.run([&] {
       count_call();
-      const Observation* observation = stopped_.empty() ? observe(s) : nullptr;
+      const Observation* observation = may_go_on() ? observe(s) : nullptr;
       if (observation != nullptr) write(observation->answer, g);
     });
-  }
-
-  template <class Step>
-  void keep_exception(const Step& step) noexcept {
-    try {
-      step();
-    } catch (...) {
-      error_ = std::current_exception();
-      stopped_ = "an evaluation threw";
-      opt_.force_stop();
-    }
   }
 
   const Observation* observe(const std::vector<double>& s) {
@@ -138,14 +125,13 @@ class Run {
   EvaluationLog& log_;
   const std::vector<double>& start_;
   std::size_t budget_;
-  nlopt::opt& opt_;
+  NloptGuard guard_;
   Clock::time_point begin_;
   double scale_ = 1.0;  // of a response
   double worst_ = 0.0;  // over the scale
   std::size_t calls_ = 0;
   std::string stopped_;
   bool is_spent_ = false;
-  std::exception_ptr error_;
 };
 
 // Largest g_i of an answer, at most the penalty.

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <nlopt.hpp>
 
 #include "study/tune/lockstep.h"
+#include "study/tune/nlopt_guard.h"
 #include "study/tune/polish_point.h"
 #include "study/tune/variable_axis.h"
 
@@ -22,14 +22,17 @@ class MatchSeen : public std::exception {};
 
 class Scout {
  public:
-  Scout(const TuningProblem& problem, const EvaluateBatch& ask, std::size_t budget)
-      : problem_(problem), ask_(ask), budget_(budget) {}
+  Scout(const TuningProblem& problem, const EvaluateBatch& ask, std::size_t budget,
+        nlopt::algorithm algorithm)
+      : problem_(problem),
+        ask_(ask),
+        budget_(budget),
+        opt_(algorithm, static_cast<unsigned>(problem.variables.size())),
+        guard_(opt_) {}
 
-  void run(nlopt::algorithm algorithm, std::uint64_t seed) {
-    const auto n = static_cast<unsigned>(problem_.variables.size());
+  void run(std::uint64_t seed) {
+    const unsigned n = opt_.get_dimension();
     nlopt::srand(static_cast<unsigned long>(seed));  // of this thread
-    nlopt::opt opt(algorithm, n);
-    opt_ = &opt;
     std::vector<double> low(n);
     std::vector<double> high(n);
     std::vector<double> t(n);
@@ -38,36 +41,31 @@ class Scout {
       high[j] = position_of(problem_.variables[j], problem_.variables[j].high);
       t[j] = 0.5 * (low[j] + high[j]);
     }
-    opt.set_lower_bounds(low);
-    opt.set_upper_bounds(high);
-    opt.set_min_objective(&Scout::objective, this);
-    opt.set_population(kPopulationPerVariable * n);
-    opt.set_maxeval(static_cast<int>(budget_));
+    opt_.set_lower_bounds(low);
+    opt_.set_upper_bounds(high);
+    opt_.set_min_objective(&Scout::objective, this);
+    opt_.set_population(kPopulationPerVariable * n);
+    opt_.set_maxeval(static_cast<int>(budget_));
     double value = 0.0;
     try {
-      opt.optimize(t, value);
+      opt_.optimize(t, value);
     } catch (const std::exception&) {
       // It has seen what it has seen.
     }
-    if (error_) std::rethrow_exception(error_);
+    guard_.rethrow();
   }
 
  private:
-  // Nothing may leave through the frames of NLopt's C code.
   static double objective(unsigned n, const double* t, double* /*gradient*/, void* self) noexcept {
     auto& scout = *static_cast<Scout*>(self);
-    try {
-      return scout.miss_at({t, t + n});
-    } catch (...) {
-      if (!scout.error_) scout.error_ = std::current_exception();
-      scout.opt_->force_stop();
-      return kFarOff;
-    }
+    double miss = kFarOff;
+    scout.guard_.run([&] { miss = scout.miss_at({t, t + n}); });
+    return miss;
   }
 
   double miss_at(const std::vector<double>& t) {
-    if (error_ || asked_ == budget_) {
-      opt_->force_stop();
+    if (guard_.has_failed() || asked_ == budget_) {
+      guard_.stop();
       return kFarOff;
     }
     ++asked_;
@@ -82,8 +80,8 @@ class Scout {
   const EvaluateBatch& ask_;
   std::size_t budget_;
   std::size_t asked_ = 0;
-  nlopt::opt* opt_ = nullptr;
-  std::exception_ptr error_;
+  nlopt::opt opt_;
+  NloptGuard guard_;
 };
 
 // Answers from the log; throws MatchSeen once one of them matches.
@@ -110,7 +108,7 @@ std::size_t scout_box(EvaluationLog& log, std::size_t reserve) {
   for (std::size_t i = 0; i < kScouts; ++i) {
     searches.push_back([&, i](const EvaluateBatch& ask) {
       const nlopt::algorithm algorithm = i == 0 ? nlopt::GN_DIRECT_L : nlopt::GN_ISRES;
-      Scout(log.problem(), ask, budget).run(algorithm, log.options().seed + i);
+      Scout(log.problem(), ask, budget, algorithm).run(log.options().seed + i);
     });
   }
   try {

@@ -182,7 +182,7 @@ TEST_F(EarlierResults, Are_refused_with_what_they_lack) {
       const char* message :
       {":25:11: error: earlier results: nowhere: there is no such directory",
        ":30:11: error: 'many' has 12 evaluations, and it is not said which is meant\n    "
-       "evaluation = one of 0, 1, 2, 3, 4, 5, 6, 7, 8\n",
+       "evaluation = one of 0-8\n",
        ":35:11: error: 'many' has no evaluation 12 that has ended\n",
        ":41:11: error: evaluation 9 of 'many' failed (diverged): diverged at t = ",
        ":47:11: error: evaluation 0 of 'bare' has no histories\n    a study keeps those that "

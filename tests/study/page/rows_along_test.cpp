@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 
 #include "study/page/history_panels.h"
-#include "study/page/map_figure.h"
 
 namespace linkstudy::testing::rows_along_test {
 namespace {
@@ -29,6 +28,17 @@ TEST(RowsAlong, Take_the_usual_value_of_every_other_parameter) {
   EXPECT_THAT(rows_along(rows, 1), ElementsAre(4, 2, 5, 1));
 }
 
+TEST(RowsAlong, Are_there_where_usual_values_never_meet) {
+  // 5 is usual and 0.2 is usual, but no row has both: of those with 5 the usual value counts.
+  const auto rows = evaluations({{1.0, 5.0, 0.1},
+                                 {2.0, 5.0, 0.3},
+                                 {3.0, 5.0, 0.3},
+                                 {4.0, 7.0, 0.2},
+                                 {5.0, 8.0, 0.2},
+                                 {6.0, 9.0, 0.2}});
+  EXPECT_THAT(rows_along(rows, 0), ElementsAre(1, 2));
+}
+
 TEST(RowsAlong, Words_are_no_axis_and_choose_nothing) {
   const auto rows = evaluations({{2.0, "cut"}, {1.0, "sde"}});
   EXPECT_THAT(rows_along(rows, 1), IsEmpty());
@@ -43,10 +53,10 @@ TEST(UsualRows, Leave_two_parameters_free) {
                                  {3.0, 7.0, "sde", 0.2},
                                  {4.0, 7.0, "cut", 0.1}});
   // Three of five are "sde", of those two have 0.2.
-  EXPECT_THAT(usual_rows(rows, 0, 1), ElementsAre(0, 3));
+  EXPECT_THAT(usual_rows(rows, {0, 1}), ElementsAre(0, 3));
   // Two have 2.0, each with a word of its own: of equals the first.
-  EXPECT_THAT(usual_rows(rows, 1, 3), ElementsAre(1));
-  EXPECT_THAT(usual_rows({}, 0, 1), IsEmpty());
+  EXPECT_THAT(usual_rows(rows, {1, 3}), ElementsAre(1));
+  EXPECT_THAT(usual_rows({}, {0, 1}), IsEmpty());
 }
 
 TEST(ChannelGroup, Is_what_components_and_coordinates_have_in_common) {
