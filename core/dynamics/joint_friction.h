@@ -58,7 +58,7 @@ inline void update_coefficients(const JointFrictionStructure& s,
   const Real sliding = s.slide >= 0 ? v[s.slide] : Real(0.0);
   x.mu_turn = x.mu_slide = Real(0.0);
   if (s.turn >= 0 && s.slide >= 0) {
-    const LugrePlaneState<Real> f = lugre_friction(
+    const LugreVectorState<Real, 2> f = lugre_friction(
         n.law, std::array{at(w.z, s.z), at(w.z, s.z + 1)}, std::array{turning, sliding});
     x.mu_turn = f.mu[0];
     x.mu_slide = f.mu[1];

@@ -94,7 +94,7 @@ inline void update_loop_rows(const Mechanism& m, const Parameters<Real>& p,
     c.needs_frames = true;
     const ClosureParameters<Real>& n = at(p.closures, row.closure);
     update_closure_pose(m, c, n, w.bodies.data(), x);
-    update_row(row, x, n.springs, at(w.bodies, c.first), at(w.bodies, c.second), zero3<Real>(),
+    update_row(row, x, n, at(w.bodies, c.first), at(w.bodies, c.second), zero3<Real>(),
                at(s.rows, r));
   });
 }

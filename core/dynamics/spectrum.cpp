@@ -10,6 +10,7 @@
 #include "core/dynamics/motion.h"
 #include "core/forces/contact_memory.h"
 #include "core/kinematics/assembly.h"
+#include "core/model/bristles.h"
 
 namespace linkstudy {
 namespace {
@@ -123,16 +124,7 @@ Steps choose_steps(const Model& model, const State<double>& s, Workspace<double>
   const auto bend = [&](int z, const LugreParameters<double>& law) {
     steps.z[z] = kBristleStep * law.mu_k / law.sigma0;
   };
-  for (std::size_t i = 0; i < m.frictions.size(); ++i) {
-    const JointFrictionStructure& f = m.frictions[i];
-    bend(f.z, model.parameters.frictions[i].law);
-    if (f.turn >= 0 && f.slide >= 0) bend(f.z + 1, model.parameters.frictions[i].law);
-  }
-  for (const ContactStructure& c : m.contacts) {
-    if (c.z >= 0) {
-      bend(c.z, model.parameters.clearances[static_cast<std::size_t>(c.clearance)].friction);
-    }
-  }
+  for_bristles(m, model.parameters, bend);
   return steps;
 }
 

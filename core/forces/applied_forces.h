@@ -3,6 +3,7 @@
 // powers of drives and of dissipation are summed.
 #pragma once
 
+#include "core/forces/constant_friction.h"
 #include "core/forces/contact_forces.h"
 #include "core/forces/course_value.h"
 #include "core/forces/end_stops.h"
@@ -113,6 +114,7 @@ inline void update_applied_forces(const Mechanism& m, const Parameters<Real>& p,
   add_point_springs(m, p, t, w);
   add_contacts(m, p, w);
   add_stops(m, p, q, v, w);
+  add_constant_friction(m, p, v, w);
 }
 
 }  // namespace linkstudy

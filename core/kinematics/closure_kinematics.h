@@ -4,7 +4,8 @@
 //
 //   ground axis e     d = e.gap    force e, at p1 on the first body and at p2 on the second
 //   axis e of {1,e}   d = e.gap    force e at p2 on both (e turns with body 1)
-//   line of centres   d = |gap|    force u along the line, zero at coincidence
+//   line of centres   d = |gap| - length of a rod, else 0; force u along the line, zero where the
+//                     points coincide
 //   rotation          d = s a.b    couple s b x a
 //   rotation vector   d = e.phi    couple d phi_i / d(turn) (core/spatial/rotation_vector.h)
 #pragma once
@@ -79,15 +80,20 @@ inline TurningGap<Real> gap_seen_from_first(const BodyState<Real>& b1, const Clo
 }
 
 template <class Real>
-inline void update_line_row(const ClosureState<Real>& x, RowState<Real>& row) {
+inline void update_line_row(const ClosureState<Real>& x, Real rod, const Vec3<Real>& acceleration,
+                            RowState<Real>& row) {
   const Vec3<Real> gap = x.p2 - x.p1;
   const Real length = sqrt(dot(gap, gap));
   const auto coincident = length < Real(1e-150);
   const Real one(1.0), none(0.0);
-  row.force = select(coincident, none, one / select(coincident, one, length)) * gap;
-  row.d = length;
-  row.rate = dot(row.force, x.v2 - x.v1);
-  row.bias = none;  // never a constraint
+  const Real inverse = select(coincident, none, one / select(coincident, one, length));
+  const Vec3<Real> speed = x.v2 - x.v1;
+  row.force = inverse * gap;
+  row.d = length - rod;
+  row.rate = dot(row.force, speed);
+  // What moves across the line turns it.
+  row.bias =
+      madd(inverse, nmadd(row.rate, row.rate, dot(speed, speed)), dot(row.force, acceleration));
 }
 
 template <class Real>
@@ -119,7 +125,7 @@ inline void update_rotation_vector_row(const Row& r, const ClosureState<Real>& x
 
 // One row; `acceleration` is gap_acceleration, used for the bias only.
 template <class Real>
-inline void update_row(const Row& r, const ClosureState<Real>& x, const Mat3<Real>& springs,
+inline void update_row(const Row& r, const ClosureState<Real>& x, const ClosureParameters<Real>& n,
                        const BodyState<Real>& b1, const BodyState<Real>& b2,
                        const Vec3<Real>& acceleration, RowState<Real>& row) {
   switch (r.kind) {
@@ -129,7 +135,7 @@ inline void update_row(const Row& r, const ClosureState<Real>& x, const Mat3<Rea
       row.bias = component(acceleration, r.axis);
       return;
     case RowKind::spring_ground:
-      row.force = column(springs, r.axis);
+      row.force = column(n.springs, r.axis);
       row.d = dot(row.force, x.p2 - x.p1);
       row.rate = dot(row.force, x.v2 - x.v1);
       row.bias = dot(row.force, acceleration);
@@ -137,7 +143,7 @@ inline void update_row(const Row& r, const ClosureState<Real>& x, const Mat3<Rea
     case RowKind::translation_first:
     case RowKind::spring_first: {
       const bool spring = r.kind == RowKind::spring_first;
-      row.force = spring ? x.r1 * column(springs, r.axis) : column(x.r1, r.axis);
+      row.force = spring ? x.r1 * column(n.springs, r.axis) : column(x.r1, r.axis);
       const TurningGap<Real> seen = gap_seen_from_first(b1, x, acceleration);
       row.d = dot(row.force, seen.gap);
       row.rate = dot(row.force, seen.rate);
@@ -145,7 +151,7 @@ inline void update_row(const Row& r, const ClosureState<Real>& x, const Mat3<Rea
       return;
     }
     case RowKind::line_of_centres:
-      return update_line_row(x, row);
+      return update_line_row(x, n.length, acceleration, row);
     case RowKind::rotation:
       return update_rotation_row(r, x, b1, b2, row);
     case RowKind::rotation_vector:
@@ -203,8 +209,8 @@ inline void update_rows(const Mechanism& m, const Parameters<Real>& p, Workspace
         Storage == RowStorage::cut ? gap_acceleration(m, c, bodies, x) : zero3<Real>();
     if (c.point_rows) update_point_rows(x, acceleration, &at(states, c.row_begin));
     for (const int r : other_rows_of(c)) {
-      update_row(at(rows, r), x, at(p.closures, i).springs, bodies[c.first], bodies[c.second],
-                 acceleration, at(states, r));
+      update_row(at(rows, r), x, at(p.closures, i), bodies[c.first], bodies[c.second], acceleration,
+                 at(states, r));
     }
   }
 }

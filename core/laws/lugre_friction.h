@@ -7,9 +7,9 @@
 // z_rate cannot have the sign of z. Weighted damping (Olsson 1996; Canudas de Wit and Lischinsky
 // 1997): with v_d > 0 sigma1 is multiplied by exp(-(v / v_d)^2), so that a bristle not yet bent
 // carries no large force at high speeds.
-// In two directions z and v are vectors, and |v| takes the place of v in g, in the relaxation and
-// in the weight; along one direction both forms are the same.
-// The bristle relaxes at the rate sigma0 |v| / g(v), which limits the step of explicit methods.
+// In several directions z and v are vectors, and |v| takes the place of v in g, in the relaxation
+// and in the weight; along one direction both forms are the same. The bristle relaxes at the rate
+// sigma0 |v| / g(v), which limits the step of explicit methods.
 #pragma once
 
 #include <array>
@@ -36,9 +36,9 @@ struct LugreState {
   Real relaxation;  // sigma0 |v| / g, 1/s
 };
 
-template <class Real>
-struct LugrePlaneState {
-  std::array<Real, 2> mu, z_rate;
+template <class Real, std::size_t Count>
+struct LugreVectorState {
+  std::array<Real, Count> mu, z_rate;
   Real relaxation;
 };
 
@@ -78,16 +78,31 @@ inline LugreState<Real> lugre_friction(const LugreParameters<Real>& p, Real z, R
   return lugre_component(p, relaxation, lugre_damping(p, speed), z, v);
 }
 
-template <class Real>
-inline LugrePlaneState<Real> lugre_friction(const LugreParameters<Real>& p,
-                                            const std::array<Real, 2>& z,
-                                            const std::array<Real, 2>& v) {
-  const Real speed = sqrt(madd(v[0], v[0], v[1] * v[1]));
-  const Real relaxation = p.sigma0 * speed / lugre_sliding(p, speed);
+template <class Real, std::size_t Count>
+inline Real lugre_speed(const std::array<Real, Count>& v) {
+  if constexpr (Count == 1) {
+    return abs(v[0]);
+  } else {
+    Real square = v[Count - 1] * v[Count - 1];
+    for (std::size_t k = Count - 1; k-- > 0;) square = madd(v[k], v[k], square);
+    return sqrt(square);
+  }
+}
+
+template <class Real, std::size_t Count>
+inline LugreVectorState<Real, Count> lugre_friction(const LugreParameters<Real>& p,
+                                                    const std::array<Real, Count>& z,
+                                                    const std::array<Real, Count>& v) {
+  const Real speed = lugre_speed(v);
+  LugreVectorState<Real, Count> f;
+  f.relaxation = p.sigma0 * speed / lugre_sliding(p, speed);
   const Real damping = lugre_damping(p, speed);
-  const LugreState<Real> x = lugre_component(p, relaxation, damping, z[0], v[0]);
-  const LugreState<Real> y = lugre_component(p, relaxation, damping, z[1], v[1]);
-  return {{x.mu, y.mu}, {x.z_rate, y.z_rate}, relaxation};
+  for (std::size_t k = 0; k < Count; ++k) {
+    const LugreState<Real> x = lugre_component(p, f.relaxation, damping, z[k], v[k]);
+    f.mu[k] = x.mu;
+    f.z_rate[k] = x.z_rate;
+  }
+  return f;
 }
 
 }  // namespace linkstudy

@@ -40,10 +40,18 @@ Row translation_row(const Sde& sde, int index, int d) {
   return {ground ? RowKind::translation_ground : RowKind::translation_first, index, d, 0, 1.0, d};
 }
 
+// The one row of a rod.
+std::vector<Row> rod_row(int index) {
+  return {{RowKind::line_of_centres, index, 0, 0, 1.0, kX}};
+}
+
 }  // namespace
 
 std::vector<Row> make_cut_rows(const Closure& closure, int index, unsigned idle) {
   const unsigned held = held_directions(closure);
+  if (closure.type == JointType::rod) {
+    return (held & ~idle) != 0u ? rod_row(index) : std::vector<Row>{};
+  }
   const bool whole = holds_point(held);
   // An sde that holds a point in some directions only does so along its own.
   const bool partly =
@@ -62,6 +70,7 @@ std::vector<Row> make_cut_rows(const Closure& closure, int index, unsigned idle)
 
 std::vector<Row> make_sde_rows(const Closure& closure, int index) {
   const Sde& sde = closure.sde;
+  if (closure.type == JointType::rod) return rod_row(index);
   const bool line = sde.form == SdeForm::line_of_centres;
   std::vector<Row> rows;
   for (int d = kX; d < kDirections; ++d) {

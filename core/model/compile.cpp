@@ -4,6 +4,7 @@
 #include <map>
 
 #include "core/model/closure_rows.h"
+#include "core/model/compile_friction.h"
 #include "core/model/compile_motion.h"
 #include "core/model/compile_springs.h"
 #include "core/model/piecewise.h"
@@ -54,6 +55,7 @@ std::vector<BasicMotion> motions_of(const Joint& joint) {
       return ball_joint ? std::vector{tx, ty, tz, ball} : std::vector{tx, ty, tz, rz, ry, rx};
     case JointType::fixed:
     case JointType::pin_in_slot:
+    case JointType::rod:
       return {};
   }
   return {};
@@ -158,7 +160,7 @@ class Compiler {
     body.offset = shape_of(frame.position);
     add_stages(joint, index, body);
     add_joint_springs(joint, body);
-    if (joint.friction) add_joint_friction(*joint.friction, joint.type, index, body);
+    if (joint.friction) add_joint_friction(joint, index, body, model_);
     find_motion(body);
 
     const Eigen::Vector3d center = link_frame.rotation * link.center_of_mass + link_frame.position;
@@ -236,28 +238,6 @@ class Compiler {
     }
   }
 
-  static LugreParameters<double> law_of(const Friction& f) {
-    return {f.mu_s, f.mu_k, f.v_s, f.sigma0, f.sigma1, f.sigma2, f.v_d};
-  }
-
-  int add_bristles(int count) {
-    Mechanism& m = mechanism();
-    const int first = m.nz;
-    m.nz += count;
-    model_.start.z.resize(static_cast<std::size_t>(m.nz), 0.0);
-    return first;
-  }
-
-  void add_joint_friction(const JointFriction& f, JointType type, int index, const Body& body) {
-    JointFrictionStructure s{.body = index, .z = add_bristles(body.v_count)};
-    if (type != JointType::prismatic) s.turn = body.v_begin;
-    if (type != JointType::revolute) s.slide = body.v_begin + body.v_count - 1;
-    mechanism().frictions.push_back(s);
-    const auto inverse = [](double x) { return x > 0.0 ? 1.0 / x : 0.0; };
-    parameters().frictions.push_back(
-        {law_of(f.law), f.radius, inverse(f.length), inverse(f.radius), f.preload});
-  }
-
   // What can move at all; the rules are those of joint_kinematics `spin` and `shift`.
   void find_motion(Body& body) const {
     const Mechanism& m = model_.mechanism;
@@ -309,6 +289,7 @@ class Compiler {
     const bool cut = closure.model != ClosureModel::sde || shuts_sdes_;
     c.model = cut && closure.model == ClosureModel::sde ? ClosureModel::cut : closure.model;
     c.stabilization = closure.stabilization;
+    c.is_rod = closure.type == JointType::rod;
     std::vector<Row>& rows = cut ? m.cut_rows : m.sde_rows;
     c.row_begin = static_cast<int>(rows.size());
     add_rows(closure, index, cut);
@@ -338,7 +319,7 @@ class Compiler {
     parameters().closures.push_back(
         {to_mat3(f1.rotation), to_vec3(f1.position), to_mat3(f2.rotation), to_vec3(f2.position),
          to_mat3(closure.sde.directions.transpose()), baumgarte ? 2.0 * closure.alpha : 0.0,
-         baumgarte ? closure.beta * closure.beta : 0.0});
+         baumgarte ? closure.beta * closure.beta : 0.0, closure.length});
   }
 
   void add_clearance(const Clearance& c, int closure) {
@@ -347,7 +328,7 @@ class Compiler {
     const int first = static_cast<int>(m.contacts.size());
     const bool spatial = c.kind == ClearanceKind::spatial;
     for (double side : spatial ? std::vector{-0.5, 0.5} : std::vector{0.0}) {
-      m.contacts.push_back({index, side, c.friction ? add_bristles(1) : -1});
+      m.contacts.push_back({index, side, c.friction ? add_bristles(1, model_) : -1});
     }
     m.clearances.push_back({closure, c.bearing_is_first, c.exponent == 1.5, c.approach, c.points,
                             c.free_bristle, first, static_cast<int>(m.contacts.size())});
@@ -361,7 +342,7 @@ class Compiler {
          c.bearing_radius,
          c.length,
          {stiffness, c.exponent, contact_damping(c.law, c.restitution), c.least_speed},
-         law_of(friction),
+         lugre_parameters(friction),
          relaxation});
   }
 

@@ -73,7 +73,7 @@ struct Body {
 //   translation_ground  d = e . (p2 - p1), e a ground axis
 //   translation_first   d = e . (p2 - p1), e an axis of {1,e}
 //   spring_ground/_first  the same with e a given unit direction
-//   line_of_centres     d = |p2 - p1|
+//   line_of_centres     d = |p2 - p1| - length
 //   rotation            d = sign * a . b, a an axis of {1,e}, b an axis of {2,e}
 //   rotation_vector     d = e . phi, e an axis of {1,e}, phi the rotation vector from it to {2,e}
 // or of a coupling of joint coordinates, without a closure and without a wrench:
@@ -117,7 +117,8 @@ struct ClosureStructure {
   int last_1 = -1, last_2 = -1;                // last velocity on each path to ground
   int support_begin = 0, support_end = 0;      // in Mechanism::support
   bool needs_frames = false;                   // some row uses {1,e} or {2,e}
-  bool has_line = false;                       // some row is a line of centres
+  bool has_line = false;                       // some row is a line of centres or a rod
+  bool is_rod = false;                         // its points are apart
   bool point_rows = false;                     // rows start with the ground axes x y z
   VectorShape point_1 = VectorShape::general;  // closure points in their bodies
   VectorShape point_2 = VectorShape::general;
@@ -191,6 +192,16 @@ struct JointFrictionStructure {
   bool operator==(const JointFrictionStructure&) const = default;
 };
 
+// Friction in a tree joint under a constant load: rates that rub as a vector, and their bristles.
+struct ConstantFrictionStructure {
+  int body;
+  int v, count;             // first rate, how many
+  bool turns = false;       // the first of them
+  bool has_angles = false;  // three rates of angles, which rub as the angular velocity
+  int z;
+  bool operator==(const ConstantFrictionStructure&) const = default;
+};
+
 // A joint whose reaction is shared with the other joints of its loops.
 struct LoopJoint {
   int group = 0;       // loops that have joints in common
@@ -262,6 +273,7 @@ struct MechanismStructure {
   std::vector<ContactStructure> contacts;  // clearance by clearance, then those of stops
   std::vector<StopStructure> stops;
   std::vector<JointFrictionStructure> frictions;
+  std::vector<ConstantFrictionStructure> constant_frictions;
   int nz = 0;  // bristles
   int table_segments = 0;
   std::vector<CouplingStructure> couplings;

@@ -29,6 +29,7 @@ struct ClosureParameters {
   Mat3<Real> springs;  // columns: directions of the form three_springs
   Real velocity_gain;  // Baumgarte: 2 alpha, 1/s
   Real position_gain;  // Baumgarte: beta^2, 1/s^2
+  Real length;         // of a rod, m; else 0
 };
 
 template <class Real>
@@ -100,6 +101,13 @@ struct JointFrictionParameters {
 };
 
 template <class Real>
+struct ConstantFrictionParameters {
+  LugreParameters<Real> law;
+  std::array<Real, 3> arm;  // of each rate: m of a turn, 1 of a shift
+  Real load;                // N
+};
+
+template <class Real>
 struct Parameters {
   Vec3<Real> gravity;                        // ground axes
   std::vector<BodyParameters<Real>> bodies;  // (nb), [0] unused
@@ -112,6 +120,7 @@ struct Parameters {
   std::vector<ClearanceParameters<Real>> clearances;
   std::vector<StopParameters<Real>> stops;
   std::vector<JointFrictionParameters<Real>> frictions;
+  std::vector<ConstantFrictionParameters<Real>> constant_frictions;
   std::vector<SegmentParameters<Real>> segments;
   std::vector<MotionParameters<Real>> motions;
   std::vector<KnotParameters<Real>> knots;  // of the tables of motions

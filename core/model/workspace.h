@@ -92,6 +92,14 @@ struct JointFrictionState {
   Real gap, next_gap, change, missed, row;
 };
 
+// Of friction under a constant load: generalised forces against the rates, of a ball about the
+// child's axes.
+template <class Real>
+struct ConstantFrictionState {
+  std::array<Real, 3> effort{Real(0.0), Real(0.0), Real(0.0)};  // N or N m
+  Real relaxation = Real(0.0);                                  // of its bristles, 1/s
+};
+
 // Scratch and result of reactions in tree joints (core/dynamics/reactions.h).
 template <class Real>
 struct Reactions {
@@ -147,6 +155,7 @@ struct Workspace {
   // (bent springs) |slope| + damping, whatever their units: at which states they limit the step.
   std::vector<Real> spring_weights;
   std::vector<JointFrictionState<Real>> frictions;
+  std::vector<ConstantFrictionState<Real>> constant_frictions;
   std::vector<Real> friction_tau;               // (nv) of joints with friction
   std::vector<Real> friction_inverse;           // of d gap / d load, negative
   std::vector<Real> z;                          // (nz) bristles: set before an evaluation
@@ -229,6 +238,7 @@ Workspace<Real> make_workspace(const Mechanism& m) {
   w.point_springs.resize(m.point_springs.size());
   w.spring_weights.assign(static_cast<std::size_t>(m.bent_springs), Real(0.0));
   w.frictions.resize(m.frictions.size());
+  w.constant_frictions.resize(m.constant_frictions.size());
   w.friction_inverse.resize(m.frictions.size() * m.frictions.size());
   w.friction_tau.assign(m.frictions.empty() ? 0 : nv, Real(0.0));
   for (auto* x : {&w.z, &w.z_rate}) x->assign(static_cast<std::size_t>(m.nz), Real(0.0));

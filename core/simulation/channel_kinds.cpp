@@ -61,7 +61,8 @@ constexpr std::array kKinds = {
                 "normal load that makes the friction, preload included"},
     ChannelKind{Quantity::joint_friction, "joint", "friction", "[i]", "N m|N", kRubbing,
                 "friction, positive against the rate of the coordinate; of a cylindrical joint 0 "
-                "against its turn, 1 against its shift"},
+                "against its turn, 1 against its shift; of a ball under a constant load about x, "
+                "y, z of its child frame"},
     ChannelKind{Quantity::motion_effort, "motion", "effort", "", "N m|N", "",
                 "what the prescribed motion takes: generalised force along the coordinate, of the "
                 "parent on the child; beside springs, friction and loads of the joint"},

@@ -129,6 +129,7 @@ class Lister {
     add_vector(name, Quantity::joint_torque_local, b);
     add_stops_of(body, name);
     add_friction_of(b, name);
+    add_constant_friction_of(b, name);
   }
 
   void add_stops_of(const Body& body, const std::string& name) {
@@ -182,6 +183,32 @@ class Lister {
       }
       add(name, Quantity::bristle, f.z, {.suffix = first});
       if (both) add(name, Quantity::bristle, f.z + 1, {.suffix = second});
+    }
+  }
+
+  // Numbered through where a joint has several: forces, then bristles.
+  void add_constant_friction_of(int b, const std::string& name) {
+    const auto& all = m_.constant_frictions;
+    const auto is_own = [b](const ConstantFrictionStructure& f) { return f.body == b; };
+    const auto own = std::find_if(all.begin(), all.end(), is_own);
+    if (own == all.end()) return;
+    const auto end = std::find_if_not(own, all.end(), is_own);
+    const bool is_one = own + 1 == end && own->count == 1;
+    for (const bool bends : {false, true}) {
+      int number = 0;
+      for (auto f = own; f != end; ++f) {
+        const int index = m_.friction_count() + static_cast<int>(f - all.begin());
+        for (int k = 0; k < f->count; ++k, ++number) {
+          const std::string suffix = is_one ? "" : "." + std::to_string(number);
+          const bool turns = f->turns && (f->count != 2 || k == 0);
+          if (bends) {
+            add(name, Quantity::bristle, f->z + k, {.suffix = suffix});
+          } else {
+            add(name, Quantity::joint_friction, index,
+                {.suffix = suffix, .component = k, .unit = turns ? "N m" : "N"});
+          }
+        }
+      }
     }
   }
 

@@ -53,7 +53,7 @@ class Instant {
       case Quantity::closure_torque:
         return component(closure_wrench(c.index).torque, c.component);
       case Quantity::closure_gap:
-        return component(own_closure_wrench(c.index).gap, c.component);
+        return component(gap(c.index), c.component);
       case Quantity::eccentricity:
         return eccentricity(c);
       case Quantity::penetration:
@@ -69,8 +69,7 @@ class Instant {
       case Quantity::friction_load:
         return at(w_.frictions, c.index).load;
       case Quantity::joint_friction:
-        return c.component == 0 ? at(w_.frictions, c.index).on_turn
-                                : at(w_.frictions, c.index).on_slide;
+        return friction(c);
       case Quantity::motion_effort:
         return at(w_.efforts, c.index);
       case Quantity::coupling_effort:
@@ -114,6 +113,20 @@ class Instant {
 
   ClosureWrench<Real> own_closure_wrench(int c) const {
     return compute_closure_wrench(at(m_.closures, c), at(w_.closures, c));
+  }
+
+  // Those under a constant load come behind the others.
+  Real friction(const Channel& c) const {
+    const int constant = c.index - m_.friction_count();
+    if (constant >= 0) {
+      return at(w_.constant_frictions, constant).effort[static_cast<std::size_t>(c.component)];
+    }
+    const JointFrictionState<Real>& x = at(w_.frictions, c.index);
+    return c.component == 0 ? x.on_turn : x.on_slide;
+  }
+
+  Vec3<Real> gap(int c) const {
+    return closure_gap(at(m_.closures, c), at(p_.closures, c), at(w_.closures, c));
   }
 
   ClosureWrench<Real> closure_wrench(int c) {

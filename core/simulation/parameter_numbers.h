@@ -21,6 +21,7 @@ inline void for_parameter_lists(F&& f, P&... p) {
   f(p.clearances...);
   f(p.stops...);
   f(p.frictions...);
+  f(p.constant_frictions...);
   f(p.segments...);
   f(p.motions...);
   f(p.knots...);

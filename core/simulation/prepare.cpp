@@ -9,6 +9,8 @@
 #include "core/dynamics/effective_mass.h"
 #include "core/dynamics/motion.h"
 #include "core/dynamics/static_balance.h"
+#include "core/forces/constant_friction.h"
+#include "core/kinematics/forward_kinematics.h"
 #include "core/kinematics/idle_rows.h"
 #include "core/kinematics/mobility.h"
 #include "core/kinematics/three_turns.h"
@@ -290,8 +292,37 @@ bool find_equilibrium(const Linkage& linkage, double time, Preparation& p) {
   return true;
 }
 
+template <std::size_t Count>
+void slide_steadily(const LugreParameters<double>& law, const std::array<double, Count>& u,
+                    double* z) {
+  const double speed = lugre_speed(u);
+  if (speed == 0.0) return;
+  const double deflection = lugre_sliding(law, speed) / (law.sigma0 * speed);
+  for (std::size_t k = 0; k < Count; ++k) z[k] = deflection * u[k];
+}
+
+void slide_constant_frictions(Model& model) {
+  const Mechanism& m = model.mechanism;
+  if (m.constant_frictions.empty()) return;
+  State<double>& start = model.start;
+  Workspace<double> w = make_workspace<double>(m);
+  update_kinematics(m, model.parameters, start.q.data(), start.v.data(), w);
+  for (std::size_t i = 0; i < m.constant_frictions.size(); ++i) {
+    const ConstantFrictionStructure& s = m.constant_frictions[i];
+    const ConstantFrictionParameters<double>& n = model.parameters.constant_frictions[i];
+    const auto slide = [&]<std::size_t Count>() {
+      slide_steadily(n.law, sliding_speeds<Count>(s, n, start.v.data(), w),
+                     &start.z[static_cast<std::size_t>(s.z)]);
+    };
+    if (s.count == 1) slide.template operator()<1>();
+    if (s.count == 2) slide.template operator()<2>();
+    if (s.count == 3) slide.template operator()<3>();
+  }
+}
+
 // A joint that slides at the start has done so before: its bristles are those of steady sliding.
 void slide_bristles(Model& model) {
+  slide_constant_frictions(model);
   for (std::size_t i = 0; i < model.mechanism.frictions.size(); ++i) {
     const JointFrictionStructure& f = model.mechanism.frictions[i];
     const JointFrictionParameters<double>& n = model.parameters.frictions[i];

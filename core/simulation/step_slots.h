@@ -43,6 +43,7 @@ template <class Real, class W, class F>
 inline void for_kept_numbers(W& w, F&& f) {
   f(numbers_in<Real>(w.contacts), number_count<Real>(w.contacts));
   f(numbers_in<Real>(w.frictions), number_count<Real>(w.frictions));
+  f(numbers_in<Real>(w.constant_frictions), number_count<Real>(w.constant_frictions));
   f(numbers_in<Real>(w.spring_weights), number_count<Real>(w.spring_weights));
 }
 

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 
+#include "core/model/bristles.h"
 #include "core/model/contact_of.h"
 #include "core/simulation/kernel.h"
 #include "core/simulation/looks.h"
@@ -43,7 +44,7 @@ class StepWatch {
   // An accepted state and its evaluation, in the lanes that still run.
   void see(long step, double t, const Real* y, const Workspace<Real>& w, unsigned active) {
     if (step == next_) look_evenly(step, t, y, w, active);
-    if (look_count(m_) == kEvenLooks) return;
+    if (look_count(m_) == kEvenLooks && m_.constant_frictions.empty()) return;
     const auto right = bent(y + m_.nq + m_.nv) <= Real(kRight);
     Real rate(0.0);
     const auto note = [&](int n, Real load) {
@@ -55,6 +56,9 @@ class StepWatch {
     for (const int i : indices_of(m_.frictions)) {
       rate = max(rate, at(w.frictions, i).relaxation);
       note(i, at(w.frictions, i).load);
+    }
+    for (const int i : indices_of(m_.constant_frictions)) {
+      rate = max(rate, at(w.constant_frictions, i).relaxation);
     }
     for (const int i : indices_of(m_.contacts)) {
       const ContactState<Real>& s = at(w.contacts, i);
@@ -97,18 +101,9 @@ class StepWatch {
   }
 
   void bound_bristles() {
-    const auto bound = [this](int z, const LugreParameters<Real>& law) {
+    for_bristles(m_, p_, [this](int z, const LugreParameters<Real>& law) {
       at(inverse_bound_, z) = law.sigma0 / law.mu_s;
-    };
-    for (const int i : indices_of(m_.frictions)) {
-      const JointFrictionStructure& f = at(m_.frictions, i);
-      bound(f.z, at(p_.frictions, i).law);
-      if (f.turn >= 0 && f.slide >= 0) bound(f.z + 1, at(p_.frictions, i).law);
-    }
-    for (const int i : indices_of(m_.contacts)) {
-      const ContactStructure& c = at(m_.contacts, i);
-      if (c.z >= 0) bound(c.z, at(p_.clearances, c.clearance).friction);
-    }
+    });
   }
 
   void look_evenly(long step, double t, const Real* y, const Workspace<Real>& w, unsigned active) {

@@ -104,12 +104,40 @@ void check_friction(const Friction& friction, RecordCheck& record) {
   record.require_not_negative("friction.damping_speed", friction.v_d);
 }
 
+namespace {
+
+// A constant load acts in every joint that moves; what it presses on has to be there.
+void check_constant_friction(const Joint& joint, RecordCheck& record) {
+  const JointFriction& friction = *joint.friction;
+  if (velocity_count(joint.type) == 0) {
+    record.report("friction", "nothing slides in a fixed joint", "take it off");
+    return;
+  }
+  check_friction(friction.law, record);
+  record.require_positive("friction.preload", friction.preload);
+  const bool slides_too = joint.type == JointType::planar || joint.type == JointType::free;
+  if (slides_too) {
+    record.require_not_negative("friction.radius", friction.radius);
+  } else if (joint.type != JointType::prismatic) {
+    record.require_positive("friction.radius", friction.radius);
+  } else if (friction.radius != 0.0) {
+    record.report("friction.radius",
+                  "under a constant load the radius of a prismatic joint has no effect",
+                  "take it off, or use load = \"reaction\"");
+  }
+}
+
+}  // namespace
+
 void check_joint_friction(const Joint& joint, RecordCheck& record) {
   const JointFriction& friction = *joint.friction;
+  if (friction.load == FrictionLoad::constant) return check_constant_friction(joint, record);
   const bool turns = joint.type == JointType::revolute || joint.type == JointType::cylindrical;
   if (!turns && joint.type != JointType::prismatic) {
-    record.report("friction", "friction is known for revolute, prismatic and cylindrical joints",
-                  "take it off, or change the type of the joint");
+    record.report("friction",
+                  "friction under the joint's own reaction is known for revolute, prismatic and "
+                  "cylindrical joints",
+                  "use load = \"constant\" with a preload, or take it off");
     return;
   }
   check_friction(friction.law, record);

@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 #include "core/topology/check_contact.h"
@@ -99,6 +100,22 @@ void check_tilt(const Closure& closure, RecordCheck& record) {
       "use tilt = \"axis\", or give the closure the type fixed, prismatic or spherical");
 }
 
+// Across a rod there are no directions that an element could hold.
+void check_rod(const Closure& closure, RecordCheck& record) {
+  if (closure.type != JointType::rod) return;
+  const auto refuse = [&](const std::string& key, double value, std::size_t d) {
+    if (value == 0.0) return;
+    record.report(
+        "sde." + key + "." + kDirectionNames[d],
+        "a rod acts along its line only, got " + text_of(value) + " for " + kDirectionNames[d],
+        "give one number, or x alone");
+  };
+  for (std::size_t d = 1; d < kDirections; ++d) {
+    refuse("stiffness", closure.sde.stiffness[d], d);
+    refuse("damping", closure.sde.damping[d], d);
+  }
+}
+
 void check_sde(const Closure& closure, RecordCheck& record) {
   const Sde& sde = closure.sde;
   bool any = false;
@@ -113,11 +130,12 @@ void check_sde(const Closure& closure, RecordCheck& record) {
                   "give a positive stiffness in at least one direction");
   }
   if (sde.damping_ratio) record.require_not_negative("sde.damping_ratio", *sde.damping_ratio);
+  check_rod(closure, record);
   const bool point = (blocked_directions(closure.type) & kTranslations) == kTranslations;
   if (sde.form != SdeForm::directional && !point) {
     record.report("sde.form",
                   "line_of_centres and three_springs hold a point in all directions, "
-                  "which this closure type leaves free in one",
+                  "which this closure type leaves free in some",
                   "use form = \"directional\"");
   }
   check_axes(closure, record);
@@ -206,8 +224,11 @@ void check_joint(const Joint& joint, const std::string& path, std::vector<Proble
     record.report("pitch", "pitch of a screw joint must not be zero, got " + text_of(joint.pitch),
                   "give the advance per turn, or use a revolute joint");
   }
-  if (joint.type == JointType::pin_in_slot) {
-    record.report("type", "type = \"pin_in_slot\" is of closures, not of joints of the tree",
+  const bool is_of_tree = std::ranges::find(kTreeJointTypes, joint.type) != kTreeJointTypes.end();
+  if (!is_of_tree) {
+    record.report("type",
+                  "type = \"" + std::string(name_of(joint.type)) +
+                      "\" is of closures, not of joints of the tree",
                   "make it a [[closure]], or use a joint with coordinates of its own");
   }
   check_start(joint, record);
@@ -225,6 +246,7 @@ void check_closure(const Closure& closure, const std::string& path,
   }
   record.require_frame("first", closure.first.frame);
   record.require_frame("second", closure.second.frame);
+  if (closure.type == JointType::rod) record.require_positive("length", closure.length);
   record.require_not_negative("cut.alpha", closure.alpha);
   record.require_not_negative("cut.beta", closure.beta);
   if (closure.model == ClosureModel::sde) check_sde(closure, record);

@@ -20,6 +20,8 @@ int velocity_count(JointType type) {
       return 6;
     case JointType::pin_in_slot:
       return 4;
+    case JointType::rod:
+      return 5;
   }
   return 0;
 }
@@ -46,6 +48,8 @@ unsigned blocked_directions(JointType type) {
       return y | z | theta | psi;
     case JointType::pin_in_slot:
       return y | z;
+    case JointType::rod:
+      return x;  // along the line
     case JointType::planar:
       return x | theta | psi;
     case JointType::fixed:

@@ -83,6 +83,7 @@ struct Link {
 //   free         translation x, y, z, then as spherical  fixed       none
 // Of closures only:
 //   pin_in_slot  a point of the second end stays on the x axis of the first, and turns freely
+//   rod          the points of both ends stay at a distance: a link without mass between two balls
 enum class JointType {
   revolute,
   prismatic,
@@ -93,7 +94,8 @@ enum class JointType {
   free,
   fixed,
   screw,
-  pin_in_slot
+  pin_in_slot,
+  rod
 };
 
 // Coordinates of the rotation in a spherical or free joint. zyx: three angles psi, theta, phi with
@@ -117,14 +119,22 @@ struct Friction {
   bool operator==(const Friction&) const = default;
 };
 
-// Friction in a revolute, prismatic or cylindrical joint, driven by its own reaction. The joint is
-// held at two supports, `length` apart along its axis; with F the reaction force across the axis
+// What presses the surfaces together: the joint's own reaction and the preload, or the preload
+// alone.
+enum class FrictionLoad { reaction, constant };
+
+// Friction in a joint. Of a revolute, prismatic or cylindrical one by its own reaction: the joint
+// is held at two supports, `length` apart along its axis; with F the reaction force across the axis
 // and M the moment across it about the joint origin the normal load is
 //   N = preload + |F / 2 + e x M / length| + |F / 2 - e x M / length|    (length 0: preload + |F|),
 // and in a prismatic joint |M_axis| / radius more, with radius > 0. Sliding speed: radius * rate of
 // turning, rate of translation, both as a vector in a cylindrical joint.
+// In any joint that moves by a constant load N = preload (core/forces/constant_friction.h): turns
+// are braked at `radius` (universal: each for itself; ball: about the axis of its turn), shifts as
+// a vector.
 struct JointFriction {
   Friction law;
+  FrictionLoad load = FrictionLoad::reaction;
   double radius = 0.0;   // of the sliding surface, m
   double length = 0.0;   // between the supports, m; 0: moments are not felt
   double preload = 0.0;  // N
@@ -292,6 +302,7 @@ struct Closure {
   JointType type = JointType::spherical;  // not free, not screw
   ClosureEnd first;                       // chain 1
   ClosureEnd second;                      // chain 2
+  double length = 0.0;                    // of a rod, m
   ClosureModel model = ClosureModel::cut;
   Stabilization stabilization = Stabilization::none;
   double alpha = 100.0;  // Baumgarte, 1/s, [AugUrb18] eq. (9): -2 alpha Phi_dot - beta^2 Phi

@@ -14,18 +14,24 @@ inline constexpr auto kWords<SolidKind> =
                            {SolidKind::sphere, "sphere"}});
 
 template <>
-inline constexpr auto kWords<JointType> =
-    make_words<JointType>({{JointType::revolute, "revolute"},
-                           {JointType::prismatic, "prismatic"},
-                           {JointType::cylindrical, "cylindrical"},
-                           {JointType::universal, "universal"},
-                           {JointType::spherical, "spherical"},
-                           {JointType::planar, "planar"},
-                           {JointType::free, "free"},
-                           {JointType::fixed, "fixed"},
-                           {JointType::screw, "screw"},
-                           {JointType::pin_in_slot, "pin_in_slot",
-                            "a point of second on the x axis of first, turning freely"}});
+inline constexpr auto kWords<JointType> = make_words<JointType>(
+    {{JointType::revolute, "revolute"},
+     {JointType::prismatic, "prismatic"},
+     {JointType::cylindrical, "cylindrical"},
+     {JointType::universal, "universal"},
+     {JointType::spherical, "spherical"},
+     {JointType::planar, "planar"},
+     {JointType::free, "free"},
+     {JointType::fixed, "fixed"},
+     {JointType::screw, "screw"},
+     {JointType::pin_in_slot, "pin_in_slot",
+      "a point of second on the x axis of first, turning freely"},
+     {JointType::rod, "rod", "the points of both ends at the distance `length`"}});
+
+template <>
+inline constexpr auto kWords<FrictionLoad> = make_words<FrictionLoad>(
+    {{FrictionLoad::reaction, "reaction", "of the joint's own reaction and the preload"},
+     {FrictionLoad::constant, "constant", "the preload alone, in joints of every type"}});
 
 template <>
 inline constexpr auto kWords<RotationCoordinates> =
@@ -107,8 +113,9 @@ inline constexpr auto kWords<ResistanceShape> = make_words<ResistanceShape>(
 
 // What a closure can be, in the order in which it is shown: all that block a direction.
 inline constexpr std::array kClosureTypes = {
-    JointType::spherical,   JointType::revolute, JointType::universal, JointType::prismatic,
-    JointType::cylindrical, JointType::planar,   JointType::fixed,     JointType::pin_in_slot};
+    JointType::spherical, JointType::revolute,    JointType::universal,
+    JointType::prismatic, JointType::cylindrical, JointType::planar,
+    JointType::fixed,     JointType::pin_in_slot, JointType::rod};
 
 // What a joint of the tree can be.
 inline constexpr std::array kTreeJointTypes = {

@@ -211,6 +211,12 @@ Fields<Closure> closure_fields() {
                           "the tree; universal: x of first and y of second",
                .required = true,
                .words = word_texts(std::span<const JointType>(kClosureTypes))});
+  closure.add("length", &Closure::length,
+              {.meaning = "of a rod: distance between the points of its ends",
+               .unit = "m",
+               .range = kPositive,
+               .required = true,
+               .only = only_where("type", {JointType::rod})});
   closure.table("first", &Closure::first,
                 {.meaning = "first end: a link and the closure frame in it", .required = true},
                 end_fields());

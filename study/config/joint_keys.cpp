@@ -155,17 +155,22 @@ Fields<JointStops> stop_fields() {
 Fields<JointFriction> joint_friction_fields() {
   Fields<JointFriction> friction;
   friction.include(&JointFriction::law, friction_fields());
+  friction.add("load", &JointFriction::load, {.meaning = "what presses the surfaces together"});
   friction.add("radius", &JointFriction::radius,
                {.meaning = "radius of the sliding surface, not 0 where it turns; prismatic: arm of "
-                           "the moment about the axis, 0: not felt",
+                           "the moment about the axis, 0: not felt; planar and free: 0: turns are "
+                           "not braked",
                 .unit = "m",
                 .range = kNotNegative});
   friction.add("length", &JointFriction::length,
                {.meaning = "between the two supports along the axis; 0: moments load nothing",
                 .unit = "m",
-                .range = kNotNegative});
+                .range = kNotNegative,
+                .effects = {acts_where("joint.*.friction.load", {FrictionLoad::reaction})}});
   friction.add("preload", &JointFriction::preload,
-               {.meaning = "normal load besides the reaction", .unit = "N", .range = kNotNegative});
+               {.meaning = "normal load besides the reaction, or all of it",
+                .unit = "N",
+                .range = kNotNegative});
   return friction;
 }
 
@@ -246,8 +251,10 @@ Fields<Joint> joint_fields() {
   joint.switched_table(
       "friction", &Joint::friction,
       {.meaning = "LuGre friction, mu = sigma0 z + sigma1 z' + sigma2 v, under the load that the "
-                  "joint's own reaction makes; default: none",
-       .only = only_where("type", {Type::revolute, Type::prismatic, Type::cylindrical}),
+                  "joint's own reaction makes, or a constant one; default: none",
+       .only =
+           only_where("type", {Type::revolute, Type::prismatic, Type::cylindrical, Type::universal,
+                               Type::spherical, Type::planar, Type::free, Type::screw}),
        .effects = {when_enabled("joint.*.friction")}},
       joint_friction_fields(), "false: no friction, whatever the table says");
   joint.finish(settle_coordinates);

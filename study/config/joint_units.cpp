@@ -28,6 +28,7 @@ std::string motions(JointType type) {
       return "mmmrrr";
     case JointType::fixed:
     case JointType::pin_in_slot:
+    case JointType::rod:
       return "";
   }
   return "";

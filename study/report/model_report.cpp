@@ -71,6 +71,10 @@ std::vector<std::string> joints_with_friction(const Mechanism& m) {
   for (const JointFrictionStructure& f : m.frictions) {
     names.push_back(m.joint_names[static_cast<std::size_t>(f.body)]);
   }
+  for (const ConstantFrictionStructure& f : m.constant_frictions) {
+    const std::string& name = m.joint_names[static_cast<std::size_t>(f.body)];
+    if (names.empty() || names.back() != name) names.push_back(name);
+  }
   return names;
 }
 

@@ -47,6 +47,7 @@ std::vector<BasicMotion> basic_motions(const Joint& joint) {
       return {move_x, move_y, move_z, turn_z, turn_y, turn_x};
     case JointType::fixed:
     case JointType::pin_in_slot:  // of closures
+    case JointType::rod:
       return {};
     case JointType::screw:
       return {BasicMotion{2, 1, joint.pitch}};

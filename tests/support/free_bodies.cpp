@@ -113,6 +113,7 @@ Moving joint_motion(Moving m, const Joint& joint, Reader& read) {
       return turn_ball(m, joint, read);
     case JointType::fixed:
     case JointType::pin_in_slot:  // of closures
+    case JointType::rod:
       return m;
     case JointType::screw:
       return turn_screw(m, joint.pitch, read.next());

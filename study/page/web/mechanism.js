@@ -166,6 +166,7 @@ class Mechanism {
       universal: () => new THREE.OctahedronBufferGeometry(1.4 * r),
       spherical: () => new THREE.SphereBufferGeometry(1.1 * r, 16, 12),
       pin_in_slot: () => lying(new THREE.CylinderBufferGeometry(0.6 * r, 0.6 * r, 4 * r, 8)),
+      rod: () => new THREE.SphereBufferGeometry(0.6 * r, 16, 12),
       planar: () => new THREE.BoxBufferGeometry(3 * r, 3 * r, 0.4 * r),
       fixed: () => new THREE.BoxBufferGeometry(r, r, r),
     };

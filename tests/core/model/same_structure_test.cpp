@@ -51,6 +51,7 @@ MechanismStructure full_structure() {
   m.stops.push_back(
       {.q = 0, .v = 0, .is_high = true, .hertz = true, .is_viscous = false, .contact = 1});
   m.frictions.push_back({.body = 1, .z = 0});
+  m.constant_frictions.push_back({.body = 1, .v = 0, .count = 1, .z = 0});
   m.loop_joints.push_back({.group = 0, .body = 1});
   m.loop_rows = m.cut_rows;
   m.motions.push_back({.q = 0, .v = 0, .law = MotionLaw::speed});
@@ -119,7 +120,7 @@ TEST(SameStructure, Counts_every_member_of_a_closure_and_its_rows) {
        [](M& m) { m.closures[0].last_1 = 9; }, [](M& m) { m.closures[0].last_2 = 9; },
        [](M& m) { m.closures[0].support_begin = 9; }, [](M& m) { m.closures[0].support_end = 9; },
        [](M& m) { m.closures[0].needs_frames = true; }, [](M& m) { m.closures[0].has_line = true; },
-       [](M& m) { m.closures[0].point_rows = true; },
+       [](M& m) { m.closures[0].point_rows = true; }, [](M& m) { m.closures[0].is_rod = true; },
        [](M& m) { m.closures[0].point_1 = VectorShape::zero; },
        [](M& m) { m.closures[0].point_2 = VectorShape::zero; }});
   expect_each_counts<Row>(
@@ -151,6 +152,12 @@ TEST(SameStructure, Counts_every_member_of_contacts_friction_springs_and_loads) 
   expect_each_counts<JointFrictionStructure>(
       {[](M& m) { m.frictions[0].body = 9; }, [](M& m) { m.frictions[0].turn = 9; },
        [](M& m) { m.frictions[0].slide = 9; }, [](M& m) { m.frictions[0].z = 9; }});
+  expect_each_counts<ConstantFrictionStructure>(
+      {[](M& m) { m.constant_frictions[0].body = 9; }, [](M& m) { m.constant_frictions[0].v = 9; },
+       [](M& m) { m.constant_frictions[0].count = 9; },
+       [](M& m) { m.constant_frictions[0].turns = true; },
+       [](M& m) { m.constant_frictions[0].has_angles = true; },
+       [](M& m) { m.constant_frictions[0].z = 9; }});
   expect_each_counts<JointSpring>(
       {[](M& m) { m.joint_springs[0].q = 9; }, [](M& m) { m.joint_springs[0].v = 9; },
        [](M& m) { m.joint_springs[0].curve.end = 9; }, [](M& m) { m.joint_springs[0].bend = 9; }});
@@ -197,6 +204,7 @@ TEST(SameStructure, Counts_every_list_and_number_of_a_mechanism) {
                                           [](M& m) { m.contacts.clear(); },
                                           [](M& m) { m.stops.clear(); },
                                           [](M& m) { m.frictions.clear(); },
+                                          [](M& m) { m.constant_frictions.clear(); },
                                           [](M& m) { m.motions.clear(); },
                                           [](M& m) { m.motion_support.clear(); },
                                           [](M& m) { m.knots = 9; },

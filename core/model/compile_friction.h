@@ -1,0 +1,16 @@
+// Friction of joints as the step loop has it, appended to a model.
+#pragma once
+
+#include "core/model/compile.h"
+
+namespace linkstudy {
+
+LugreParameters<double> lugre_parameters(const Friction& friction);
+
+// Number of the first of new bristles, which are not bent.
+int add_bristles(int count, Model& model);
+
+// Of the joint that carries the body of this number.
+void add_joint_friction(const Joint& joint, int number, const Body& body, Model& model);
+
+}  // namespace linkstudy
