@@ -5,6 +5,7 @@
 #include "study/config/model_keys.h"
 #include "study/config/read_value.h"
 #include "study/config/rotation_reader.h"
+#include "study/config/table_files.h"
 
 namespace linkstudy {
 namespace {
@@ -186,6 +187,8 @@ void add_table(const std::string& unit, const UnitsBy& units_by, Fields<Course>&
               .required = true,
               .only = in_table,
               .units_by = units_by});
+  add_table_file(course, in_table,
+                 {{"time", "times"}, {"position", "positions"}, {"value", "values"}});
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // The keys of [[spring]].
 #include "study/config/model_keys.h"
 #include "study/config/read_value.h"
+#include "study/config/table_files.h"
 
 namespace linkstudy {
 namespace {
@@ -24,6 +25,7 @@ Fields<ForceCurve> force_over_length_fields() {
                         "linear between, held outside",
              .unit = "N",
              .required = true});
+  add_table_file(curve, {}, {{"length", "lengths"}, {"force", "forces"}});
   return curve;
 }
 
