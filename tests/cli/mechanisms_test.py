@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Shipped mechanisms against published numbers and closed forms: a flyball governor, a crank drive
-with a bending rod, an excavator arm with cylinders. Each closes its energy ledger.
+with a bending rod, an excavator arm with cylinders, a punch press. Each closes its energy ledger.
 
 usage: mechanisms_test.py LINKSTUDY TREE [options of unittest]
 """
@@ -13,7 +13,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-LINKSTUDY = ""
+LINKSTUDY = Path()
 TREE = Path()
 GRAVITY = 9.81
 LEDGER = 1e-9  # of the greatest energy
@@ -339,6 +339,88 @@ class Excavator(MechanismTest):
         self.assertAlmostEqual(work / supplied, 1.0, delta=1e-6)
 
 
+class PunchPress(MechanismTest):
+    """A constant torque, and a force over the crank's angle."""
+
+    CRANK, ROD, TORQUE = 0.1, 0.3, 85.0
+
+    def ram(self, angle):
+        return self.CRANK * math.cos(angle) + math.sqrt(
+            self.ROD**2 - (self.CRANK * math.sin(angle)) ** 2
+        )
+
+    def work_of_punch(self, points, until):
+        """Of one turn from -180 deg up to an angle, against the ram: Simpson, piece by piece."""
+        work = 0.0
+        for (a, f), (b, g) in zip(points, points[1:]):
+            end = min(b, until)
+            if end <= a:
+                break
+            # integral of F dx = [F x] - integral of dF x
+            slope, count = (g - f) / (b - a), 400
+            h = (end - a) / count
+            x = [self.ram(a + i * h) for i in range(count + 1)]
+            area = h / 3.0 * (x[0] + x[-1] + 4.0 * sum(x[1:-1:2]) + 2.0 * sum(x[2:-1:2]))
+            work += (f + slope * (end - a)) * x[-1] - f * x[0] - slope * area
+        return work
+
+    def test_energy_is_what_motor_and_punch_give_at_every_angle(self):
+        lines = (TREE / "configs" / "data" / "punch_force.csv").read_text().splitlines()
+        rows = list(csv.reader(line for line in lines if not line.startswith("#")))[1:]
+        points = [(math.radians(float(a)), 1e3 * float(f)) for a, f in rows]
+        exact = (
+            "simulation.integrator=adaptive",
+            "simulation.tolerance={ relative = 1e-11, absolute = 1e-13 }",
+        )
+        for settings, allowed in (((), 1e-6), (exact, 1e-8)):  # steps of RK4 go over kinks
+            run = simulate("punch_press", *settings, signals=("joint.A",))
+            self.require_energy(run, points, allowed)
+
+    def test_results_need_the_file_no_more(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            model = (TREE / "configs/mechanisms/punch_press.toml").read_text()
+            (folder / "press.toml").write_text(model.replace("../data/", ""))
+            table = folder / "punch_force.csv"
+            table.write_text((TREE / "configs/data/punch_force.csv").read_text())
+
+            def run(*words):
+                command = [LINKSTUDY, *words]
+                done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
+                return done.returncode, done.stdout + done.stderr
+
+            short = ("press.toml", "-o", "results", "--set", "simulation.end_time=0.05")
+            self.assertEqual(0, run("simulate", *short)[0])
+            table.write_text(table.read_text().replace("22", "21"))
+            code, said = run("simulate", *short)
+            self.assertEqual(2, code, said)  # another input
+            table.unlink()
+            code, said = run("verify", "results")
+            self.assertEqual(0, code, said)
+            code, said = run("check", "press.toml")
+            self.assertEqual(2, code)
+            self.assertIn("press.toml:", said)
+            self.assertIn("punch_force.csv", said)
+
+    def require_energy(self, run, points, allowed):
+        turn = 2.0 * math.pi
+        whole = self.work_of_punch(points, math.pi)
+        self.assertGreater(whole, 100.0)
+        start = run["joint.A.q"][0]
+        self.assertGreater(run["joint.A.q"][-1] - start, 4 * turn)
+
+        def expected(angle):
+            turns = math.floor((angle + math.pi) / turn)
+            part = self.work_of_punch(points, angle - turns * turn)
+            return self.TORQUE * (angle - start) - turns * whole - part
+
+        begin = expected(start)
+        energy = [expected(angle) - begin for angle in run["joint.A.q"]]
+        gained = [k - run["energy.kinetic"][0] for k in run["energy.kinetic"]]
+        self.require_near(gained, energy, allowed * max(run["energy.kinetic"]))
+        self.require_closed_ledger(run)
+
+
 if __name__ == "__main__":
-    LINKSTUDY, TREE = sys.argv[1], Path(sys.argv[2])
+    LINKSTUDY, TREE = Path(sys.argv[1]).resolve(), Path(sys.argv[2])
     unittest.main(argv=[sys.argv[0], *sys.argv[3:]])

@@ -136,7 +136,11 @@ TEST(Courses, That_jump_cost_constant_steps_an_error_of_first_order_and_adaptive
     const double error = kMass * rate_after(saw, steps_of(step, 2.5, 2.5)) - impulse;
     EXPECT_NEAR(error, -10.0 * 8.0 * step / 6.0, 1e-9) << step;
   }
-  EXPECT_NEAR(kMass * rate_after(saw, adaptive(2.5, 0.1)), impulse, 1e-10);
+  for (const Integrator method : {Integrator::adaptive, Integrator::stiff}) {
+    SimulationOptions options = adaptive(2.5, 0.1);
+    options.integrator = method;
+    EXPECT_NEAR(kMass * rate_after(saw, options), impulse, 1e-10);
+  }
 }
 
 TEST(Courses, Show_adaptive_steps_every_pulse_however_short) {
@@ -245,6 +249,33 @@ TEST(Courses, Over_a_coordinate_give_statics_the_slope_of_their_side) {
   const StaticsReport rest = solve_statics(model, model.start);
   EXPECT_EQ(rest.stability, Stability::unstable);
   EXPECT_NEAR(rest.smallest_stiffness, -7.0, 1e-8);
+}
+
+// A rope and an actuator on one line: their slopes add where the rope is taut.
+TEST(Courses, Of_an_actuator_over_a_coordinate_add_their_slope_to_that_of_its_spring) {
+  for (const bool taut : {true, false}) {
+    Linkage linkage =
+        driven(JointType::prismatic, Course{CourseShape::constant, -30.0, 0.0, {}, {}});
+    PointSpring rope;
+    rope.name = "rope";
+    rope.first = {kGround, Vector3d::Zero()};
+    rope.second = {"mass", {0.0, 0.0, -1.0}};  // its length is -q + 1
+    rope.acts = SpringActs::tension;
+    rope.stiffness = 80.0;
+    rope.free_length = taut ? 0.9 : 2.0;
+    rope.course = over_joint({-0.5, 0.4}, {40.0, -14.0});
+    linkage.springs = {rope};
+    linkage.joints[0].position = {0.05};
+    Model model = compile(linkage);
+    const StaticsReport rest = solve_statics(model, model.start);
+    ASSERT_TRUE(rest.converged) << rest.reason;
+    // Pull along +q: 10 - 60 q, and 80 (0.1 - q) of the rope, against 30 N.
+    const double stiffness = 60.0 + (taut ? 80.0 : 0.0);
+    EXPECT_NEAR(model.start.q[0], (10.0 + (taut ? 8.0 : 0.0) - 30.0) / stiffness, 1e-10);
+    EXPECT_NEAR(rest.smallest_stiffness, stiffness, 1e-6);
+    const Spectrum spectrum = compute_spectrum(model, model.start);
+    EXPECT_NEAR(spectrum.omega_max, std::sqrt(stiffness / kMass), 1e-6);
+  }
 }
 
 // Where it was slack at the start a steep part that is met later counts for the step limit.
