@@ -13,6 +13,7 @@ namespace linkstudy {
 namespace {
 
 constexpr double kOpen = std::numeric_limits<double>::infinity();
+constexpr double kLeastWay = 1e-9;  // of the run: shorter ways to a corner are gone in one step
 
 bool hits(const Observers& all, long step) {
   const auto hit = [step](const auto& o) { return o.sampling.hits(step); };
@@ -176,7 +177,8 @@ class LocatedRun {
     corner_ = corners_.next(t);
     const double* y = integrator_->y();
     const double way = corners_.way_ahead(y, y + m_.nq, w_.qdd.data());
-    return std::min({end_time(), corner_, t + way});
+    const double least = kLeastWay * (end_time() - setting_.t0);
+    return std::min({end_time(), corner_, t + std::max(way, least)});
   }
 
   std::optional<ContactEvent> find_event() {

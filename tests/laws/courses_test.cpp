@@ -166,6 +166,19 @@ TEST(Courses, Show_adaptive_steps_every_pulse_however_short) {
   }
 }
 
+// A jump over a coordinate: two entries as near as numbers allow.
+TEST(Courses, Over_a_coordinate_may_be_steep_as_a_step) {
+  for (const double width : {1e-3, 1e-9, 1e-14}) {
+    Linkage wheel = driven(JointType::revolute, over_joint({1.0, 1.0 + width}, {0.0, 5.0}));
+    wheel.joints[0].velocity = {2.0};
+    const Samples s = run(compile(wheel), adaptive(3.0, 3.0, 1e-9), {"joint.J.q", "joint.J.v"});
+    ASSERT_EQ(s.outcome.cause, Cause::ok) << s.outcome.message;
+    const double q = s.values(1, 0), v = s.values(1, 1);
+    // Met with a step of 1e-9 of the run at the most.
+    EXPECT_NEAR(0.5 * v * v, 2.0 + 5.0 * (q - 1.0 - 0.5 * width), 1e-6) << width;
+  }
+}
+
 TEST(Courses, Over_a_coordinate_hold_their_ends_or_repeat) {
   Course held = over_joint({-0.2, 0.1, 0.4}, {-3.0, 3.0, 12.0});
   for (const auto& [x, value] : {std::pair(-5.0, -3.0), {-0.05, 0.0}, {0.2, 6.0}, {7.0, 12.0}}) {
