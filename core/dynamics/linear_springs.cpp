@@ -6,22 +6,47 @@
 namespace linkstudy {
 namespace {
 
+// A table over a coordinate as its tangent: one segment, a unit to either side of the state.
+void make_course_linear(const State<double>& s, CourseStructure& c, CourseParameters<double>& n,
+                        Model& near) {
+  if (c.bend < 0) return;
+  std::vector<SegmentParameters<double>>& segments = near.parameters.segments;
+  const double x = course_argument(c, n, s.t, s.q.data());
+  const double value = course_value(c, n, segments.data(), x);
+  const double slope = curve_slope(CurveStructure{c.begin, c.end}, segments.data(), x);
+  const int index = static_cast<int>(segments.size());
+  segments.push_back({s.q[static_cast<std::size_t>(c.q)] - 1.0, 2.0, slope});
+  n = {value - slope, 0.0, 0.0, 0.0};
+  c = {.shape = CourseShape::table, .q = c.q, .begin = index, .end = index + 1};
+}
+
+// An actuator as one that knows no time.
+void hold_course(double t, const SegmentParameters<double>* segments, PointSpringStructure& s,
+                 PointSpringParameters<double>& n) {
+  if (s.is_driven && s.course.q >= 0) return;
+  double value = 0.0;
+  if (s.is_driven) {
+    const double x = course_argument<double>(s.course, n.course, t, nullptr);
+    value = course_value(s.course, n.course, segments, x);
+  }
+  s.course = {};
+  n.course = {value, 0.0, 0.0, 0.0};
+}
+
 // f = slope (l - length) + force there, the force as that of an actuator.
 void make_linear(const PointSpringState<double>& x, const SegmentParameters<double>* segments,
                  double t, PointSpringStructure& s, PointSpringParameters<double>& n) {
   const double stretch = spring_stretch(s, n, segments, x.length);
   const double slope = spring_slope(s, n, segments, x.length, stretch);
-  const double actuator = s.is_driven ? course_value(s, n, segments, t) : 0.0;
+  hold_course(t, segments, s, n);
   if (!is_acting(s.acts, stretch)) n.damping = 0.0;
   n.stiffness = slope;
   n.free_length = x.length;
-  n.value = x.elastic + actuator;
-  n.rate = 0.0;
+  n.course.value += x.elastic;
   s.acts = SpringActs::both;
   s.curve = {};
   s.bend = -1;
   s.is_driven = true;
-  s.course = CourseShape::constant;
 }
 
 // A generalised force on one coordinate, force - slope (q - there).
@@ -34,7 +59,7 @@ void add_linear_force(const LinearForce& f, const State<double>& s, Model& model
   model.mechanism.joint_springs.push_back({f.q, f.v});
   model.parameters.joint_springs.push_back({f.slope, 0.0, s.q[static_cast<std::size_t>(f.q)], {}});
   model.mechanism.loads.push_back({.type = LoadType::drive, .v = f.v});
-  model.parameters.loads.push_back({f.force, 0.0, {}, {}});
+  model.parameters.loads.push_back({{f.force, 0.0, 0.0, 0.0}, 0.0, {}, {}});
 }
 
 void make_curves_linear(const State<double>& s, Model& model) {
@@ -67,10 +92,16 @@ void make_stops_linear(const State<double>& s, const Workspace<double>& w, Model
 
 Model make_springs_linear(const Model& model, const State<double>& s, const Workspace<double>& w) {
   Model near = model;
-  for (std::size_t i = 0; i < model.mechanism.point_springs.size(); ++i) {
-    if (model.mechanism.point_springs[i].bend < 0) continue;
-    make_linear(w.point_springs[i], model.parameters.segments.data(), s.t,
-                near.mechanism.point_springs[i], near.parameters.point_springs[i]);
+  Mechanism& m = near.mechanism;
+  Parameters<double>& p = near.parameters;
+  for (std::size_t i = 0; i < m.loads.size(); ++i) {
+    make_course_linear(s, m.loads[i].course, p.loads[i].course, near);
+  }
+  for (std::size_t i = 0; i < m.point_springs.size(); ++i) {
+    PointSpringStructure& spring = m.point_springs[i];
+    PointSpringParameters<double>& n = p.point_springs[i];
+    make_course_linear(s, spring.course, n.course, near);
+    if (spring.bend >= 0) make_linear(w.point_springs[i], p.segments.data(), s.t, spring, n);
   }
   make_curves_linear(s, near);
   near.mechanism.bent_springs = 0;

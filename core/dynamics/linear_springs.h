@@ -1,5 +1,5 @@
-// Springs and end stops whose force bends as they are near one state: derivatives by differences do
-// not see across their bends then.
+// Springs, end stops and loads over a coordinate whose force bends, as they are near one state:
+// derivatives by differences do not see across their bends then.
 #pragma once
 
 #include <optional>
@@ -9,8 +9,8 @@
 
 namespace linkstudy {
 
-// The model with every spring that bends (one-sided, or a table) made a linear one of the same
-// force, slope and damping at the state; nothing where there is none.
+// The model with every spring that bends (one-sided, or a table) and every load over a coordinate
+// made a linear one of the same force, slope and damping at the state; nothing where there is none.
 std::optional<Model> with_linear_springs(const Model& model, const State<double>& s,
                                          Workspace<double>& w);
 

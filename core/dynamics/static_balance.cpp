@@ -16,6 +16,26 @@ namespace linkstudy {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+namespace {
+
+// Of a course at this time, in whatever position.
+double greatest_value(const Model& model, const CourseStructure& c,
+                      const CourseParameters<double>& n, double t) {
+  const auto& segments = model.parameters.segments;
+  if (c.q < 0) {
+    return std::abs(course_value(c, n, segments.data(), course_argument<double>(c, n, t, nullptr)));
+  }
+  double value = n.value, greatest = std::abs(value);
+  for (int i = c.begin; i < c.end; ++i) {
+    const SegmentParameters<double>& segment = segments[static_cast<std::size_t>(i)];
+    value += segment.length * segment.slope;
+    greatest = std::max(greatest, std::abs(value));
+  }
+  return greatest;
+}
+
+}  // namespace
+
 Balance compute_balance(const Model& model, const State<double>& s, Workspace<double>& w) {
   const Mechanism& m = model.mechanism;
   compute_motion(m, model.parameters, s, w);
@@ -85,14 +105,12 @@ double force_scale(const Model& model, double t) {
   for (std::size_t i = 0; i < p.loads.size(); ++i) {
     const LoadStructure& load = model.mechanism.loads[i];
     if (load.type == LoadType::resistance) continue;
-    const double value = course_value(load, p.loads[i], p.segments.data(), t);
-    scale = std::max(scale, std::abs(value));
+    scale = std::max(scale, greatest_value(model, load.course, p.loads[i].course, t));
   }
   for (std::size_t i = 0; i < p.point_springs.size(); ++i) {
     const PointSpringStructure& spring = model.mechanism.point_springs[i];
     if (!spring.is_driven) continue;
-    const double value = course_value(spring, p.point_springs[i], p.segments.data(), t);
-    scale = std::max(scale, std::abs(value));
+    scale = std::max(scale, greatest_value(model, spring.course, p.point_springs[i].course, t));
   }
   return scale;
 }

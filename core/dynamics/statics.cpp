@@ -34,7 +34,9 @@ VectorXd newton_step(const BalanceSystem& s, Eigen::Index closures) {
   return x;
 }
 
-double steepest(const Model& model, const CurveStructure& curve) {
+// Of what is piecewise linear: a curve or a course.
+template <class Segments>
+double steepest(const Model& model, const Segments& curve) {
   double steepest = 0.0;
   for (int k = curve.begin; k < curve.end; ++k) {
     const double slope = model.parameters.segments[static_cast<std::size_t>(k)].slope;
@@ -54,6 +56,7 @@ double stiffest_line(const Model& model, const State<double>& s) {
     stiffest = std::max(stiffest, model.parameters.point_springs[i].stiffness);
     if (x.length > 0.0) stiffest = std::max(stiffest, std::abs(x.force) / x.length);
     stiffest = std::max(stiffest, steepest(model, structure.curve));
+    if (structure.course.q >= 0) stiffest = std::max(stiffest, steepest(model, structure.course));
   }
   return stiffest;
 }
@@ -75,6 +78,11 @@ double rounding_floor(const Model& model, const State<double>& s) {
     const double q = s.q[static_cast<std::size_t>(spring.q)];
     const double slope = steepest(model, spring.curve);
     largest = std::max(largest, slope * std::max(1.0, std::abs(q)));
+  }
+  for (const LoadStructure& load : model.mechanism.loads) {
+    if (load.course.q < 0) continue;
+    const double q = std::abs(s.q[static_cast<std::size_t>(load.course.q)]);
+    largest = std::max(largest, steepest(model, load.course) * std::max({1.0, reach, q}));
   }
   for (std::size_t i = 0; i < model.parameters.stops.size(); ++i) {
     const StopParameters<double>& stop = model.parameters.stops[i];
@@ -179,7 +187,7 @@ Model with_holding_efforts(const Model& model, const StaticsReport& report) {
   for (const int k : model.held) {
     if (is_driven(model.mechanism, k)) continue;
     held.mechanism.loads.push_back({.type = LoadType::drive, .v = k});
-    held.parameters.loads.push_back({report.holding[k], 0.0, {}, {}});
+    held.parameters.loads.push_back({{report.holding[k], 0.0, 0.0, 0.0}, 0.0, {}, {}});
   }
   return held;
 }

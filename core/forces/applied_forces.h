@@ -39,16 +39,16 @@ inline void add_link_load(const LoadStructure& s, const LoadParameters<Real>& n,
 }
 
 template <class Real>
-inline void add_loads(const Mechanism& m, const Parameters<Real>& p, Real t, const Real* v,
-                      Workspace<Real>& w) {
+inline void add_loads(const Mechanism& m, const Parameters<Real>& p, Real t, const Real* q,
+                      const Real* v, Workspace<Real>& w) {
   for (const int i : indices_of(m.loads)) {
     const LoadStructure& s = at(m.loads, i);
     const LoadParameters<Real>& n = at(p.loads, i);
     if (s.type == LoadType::resistance) {
-      add_resistance(s, n.value, v, w);
+      add_resistance(s, n.resistance, v, w);
       continue;
     }
-    const Real value = course_value(s, n, p.segments.data(), t);
+    const Real value = update_course(s.course, n.course, p.segments.data(), t, q, w);
     if (s.type == LoadType::drive) {
       add_drive(s, value, v, w);
     } else {
@@ -108,10 +108,10 @@ inline void update_applied_forces(const Mechanism& m, const Parameters<Real>& p,
   for (const int k : velocities(m)) at(w.tau, k) = Real(0.0);
   w.supplied_power = Real(0.0);
   w.dissipated_power = Real(0.0);
-  add_loads(m, p, t, v, w);
+  add_loads(m, p, t, q, v, w);
   add_joint_springs(m, p, q, v, w);
   add_sdes(m, p, w);
-  add_point_springs(m, p, t, w);
+  add_point_springs(m, p, t, q, w);
   add_contacts(m, p, w);
   add_stops(m, p, q, v, w);
   add_constant_friction(m, p, v, w);

@@ -1,32 +1,53 @@
-// The value of a course at a time.
+// The value of a course at a time and in a position.
 #pragma once
 
+#include "core/forces/force_curve.h"
 #include "core/laws/course.h"
-#include "core/model/mechanism.h"
-#include "core/model/parameters.h"
+#include "core/model/walk.h"
+#include "core/model/workspace.h"
 
 namespace linkstudy {
 
-// Amplitude at time t of a load or an actuator, N or N m.
-template <class Structure, class Numbers, class Real>
-inline Real course_value(const Structure& s, const Numbers& n,
-                         const SegmentParameters<Real>* segments, Real t) {
-  switch (s.course) {
+// What a course goes by, within one period where it repeats: s, rad or m.
+template <class Real>
+inline Real course_argument(const CourseStructure& s, const CourseParameters<Real>& n, Real t,
+                            const Real* q) {
+  const Real x = s.q < 0 ? t : q[s.q];
+  return s.repeats ? within_period(x, n.origin, n.period) : x;
+}
+
+// Amplitude there of a load or an actuator, N or N m.
+template <class Real>
+inline Real course_value(const CourseStructure& s, const CourseParameters<Real>& n,
+                         const SegmentParameters<Real>* segments, Real x) {
+  switch (s.shape) {
     case CourseShape::constant:
       return n.value;
     case CourseShape::ramp:
-      return n.value * ramp_course(t, n.rate);
+      return n.value * ramp_course(x, n.rate);
     case CourseShape::smooth:
-      return n.value * smooth_course(t, n.rate);
+      return n.value * smooth_course(x, n.rate);
     case CourseShape::table:
       break;
   }
   Real value = n.value;
-  for (int i = s.table_begin; i < s.table_end; ++i) {
+  for (int i = s.begin; i < s.end; ++i) {
     const SegmentParameters<Real>& g = segments[i];
-    value = value + linear_segment(t, g.begin, g.length, g.slope);
+    value = value + linear_segment(x, g.begin, g.length, g.slope);
   }
   return value;
+}
+
+// The amplitude at time t and q; a table over a coordinate notes how steep it is there.
+template <class Real>
+inline Real update_course(const CourseStructure& s, const CourseParameters<Real>& n,
+                          const SegmentParameters<Real>* segments, Real t, const Real* q,
+                          Workspace<Real>& w) {
+  const Real x = course_argument(s, n, t, q);
+  if (s.bend >= 0) {
+    at(w.spring_weights, s.bend) = abs(curve_slope(CurveStructure{s.begin, s.end}, segments, x));
+  }
+  return course_value(s, n, segments, x);
 }
 
 }  // namespace linkstudy

@@ -1,6 +1,6 @@
 // Springs, dampers and actuators along the line between two points. With p1 and p2 the points of
 // the first and the second body, l = |p2 - p1|, e = (p2 - p1) / l, l' = e . (v2 - v1),
-//   f = f_s(l, l') + f_u(t)      +f e acts on the first body at p1, -f e on the second at p2
+//   f = f_s(l, l') + f_u(t, q)   +f e acts on the first body at p1, -f e on the second at p2
 // f_s of spring and damper (core/laws/spring_force.h), f_u of the actuator; both positive where
 // they pull the points together. The power that leaves the bodies is f l': of f_s the elastic part
 // is stored and the rest dissipated, -f_u l' is supplied. Where the points coincide e = 0: the line
@@ -73,7 +73,7 @@ inline void subtract_spring_force(const PointSpringState<Real>& x, Wrench<Real>&
 
 template <class Real>
 inline void add_point_spring(const Mechanism& m, const Parameters<Real>& p, int i, Real t,
-                             Workspace<Real>& w) {
+                             const Real* q, Workspace<Real>& w) {
   const PointSpringStructure& s = at(m.point_springs, i);
   const PointSpringParameters<Real>& n = at(p.point_springs, i);
   PointSpringState<Real>& x = at(w.point_springs, i);
@@ -84,7 +84,7 @@ inline void add_point_spring(const Mechanism& m, const Parameters<Real>& p, int 
   x.force = spring_force(s.acts, x.elastic, n.damping * x.rate, stretch);
   w.dissipated_power = madd(x.force - x.elastic, x.rate, w.dissipated_power);
   if (s.is_driven) {
-    const Real actuator = course_value(s, n, segments, t);
+    const Real actuator = update_course(s.course, n.course, segments, t, q, w);
     x.force = x.force + actuator;
     w.supplied_power = nmadd(actuator, x.rate, w.supplied_power);
   }
@@ -96,9 +96,9 @@ inline void add_point_spring(const Mechanism& m, const Parameters<Real>& p, int 
 }
 
 template <class Real>
-inline void add_point_springs(const Mechanism& m, const Parameters<Real>& p, Real t,
+inline void add_point_springs(const Mechanism& m, const Parameters<Real>& p, Real t, const Real* q,
                               Workspace<Real>& w) {
-  for (const int i : indices_of(m.point_springs)) add_point_spring(m, p, i, t, w);
+  for (const int i : indices_of(m.point_springs)) add_point_spring(m, p, i, t, q, w);
 }
 
 }  // namespace linkstudy

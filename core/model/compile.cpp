@@ -5,6 +5,7 @@
 
 #include "core/model/closure_rows.h"
 #include "core/model/compile_friction.h"
+#include "core/model/compile_loads.h"
 #include "core/model/compile_motion.h"
 #include "core/model/compile_springs.h"
 #include "core/model/piecewise.h"
@@ -124,7 +125,7 @@ class Compiler {
     for (const Joint& joint : linkage_.joints) {
       if (joint.stop) add_stops(*joint.stop, body_of_.at(joint.child), model_);
     }
-    for (const Load& load : linkage_.loads) add_load(load);
+    for (const Load& load : linkage_.loads) place_load(load);
     for (const Motion& motion : linkage_.motions) {
       compile_motion(motion, body_on(motion.joint), model_);
     }
@@ -411,31 +412,18 @@ class Compiler {
     return model_.mechanism.bodies[static_cast<std::size_t>(at - names.begin())];
   }
 
-  void add_load(const Load& load) {
-    Mechanism& m = mechanism();
-    LoadStructure s{.type = load.type, .follows_link = load.follows_link, .law = load.law.shape};
-    LoadParameters<double> p{};
-    if (load.type != LoadType::resistance) {
-      const CourseNumbers course = add_course(load.course, s, m, parameters());
-      p.value = course.value;
-      p.rate = course.rate;
-    }
+  void place_load(const Load& load) {
+    PlacedLoad placed{.over = coordinate_of(load.course)};
     if (load.type == LoadType::drive || load.type == LoadType::resistance) {
-      s.v = body_on(load.joint).v_begin + load.coordinate;
-    }
-    if (load.type == LoadType::resistance) {
-      const bool linear = load.law.shape == ResistanceShape::linear;
-      p.value = load.law.value / (load.law.at_speed * (linear ? 1.0 : load.law.at_speed));
-    }
-    if (load.type == LoadType::link_force || load.type == LoadType::link_torque) {
-      s.body = body_of_.at(load.link);
-      const Frame& f = link_frames_[static_cast<std::size_t>(s.body)];
-      p.point = point_in_body(s.body, load.point);
+      placed.v = body_on(load.joint).v_begin + load.coordinate;
+    } else {
+      placed.body = body_of_.at(load.link);
+      const Frame& f = link_frames_[static_cast<std::size_t>(placed.body)];
       const Eigen::Vector3d e = load.direction.normalized();
-      p.direction = to_vec3(load.follows_link ? Eigen::Vector3d(f.rotation * e) : e);
+      placed.point = point_in_body(placed.body, load.point);
+      placed.direction = to_vec3(load.follows_link ? Eigen::Vector3d(f.rotation * e) : e);
     }
-    m.loads.push_back(s);
-    parameters().loads.push_back(p);
+    add_load(load, placed, model_);
   }
 
   Vec3<double> point_in_body(int body, const Eigen::Vector3d& position) const {
@@ -446,7 +434,13 @@ class Compiler {
   void add_spring(const PointSpring& spring) {
     const int first = body_of_.at(spring.first.link), second = body_of_.at(spring.second.link);
     add_point_spring(spring, {first, point_in_body(first, spring.first.position)},
-                     {second, point_in_body(second, spring.second.position)}, model_);
+                     {second, point_in_body(second, spring.second.position)},
+                     spring.course ? coordinate_of(*spring.course) : -1, model_);
+  }
+
+  // Index of the coordinate that a course goes over, or -1.
+  int coordinate_of(const Course& course) const {
+    return course.over ? body_on(course.over->joint).q_begin + course.over->coordinate : -1;
   }
 
   void add_point(const ChosenPoint& point) {

@@ -28,13 +28,14 @@ void add_stop(const JointStops& stops, const Body& body, int coordinate, bool is
 }  // namespace
 
 void add_point_spring(const PointSpring& spring, const PlacedPoint& first,
-                      const PlacedPoint& second, Model& model) {
+                      const PlacedPoint& second, int over, Model& model) {
   Mechanism& m = model.mechanism;
   PointSpringStructure s{.first = first.body,
                          .second = second.body,
                          .acts = spring.acts,
                          .curve = {},
-                         .is_driven = spring.course.has_value()};
+                         .is_driven = spring.course.has_value(),
+                         .course = {}};
   PointSpringParameters<double> p{};
   p.point_1 = first.position;
   p.point_2 = second.position;
@@ -43,11 +44,7 @@ void add_point_spring(const PointSpring& spring, const PlacedPoint& first,
   p.free_length = spring.free_length.value_or(0.0);
   if (spring.force) p.curve = add_curve(*spring.force, spring.acts, s.curve, m, model.parameters);
   if (spring.force || spring.acts != SpringActs::both) s.bend = m.bent_springs++;
-  if (spring.course) {
-    const CourseNumbers course = add_course(*spring.course, s, m, model.parameters);
-    p.value = course.value;
-    p.rate = course.rate;
-  }
+  if (spring.course) p.course = add_course(*spring.course, over, s.course, m, model.parameters);
   m.point_springs.push_back(s);
   m.spring_names.push_back(spring.name);
   model.parameters.point_springs.push_back(p);

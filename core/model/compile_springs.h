@@ -10,8 +10,9 @@ struct PlacedPoint {
   Vec3<double> position;  // internal frame, m
 };
 
+// over: index of the coordinate that an actuator goes by, or -1.
 void add_point_spring(const PointSpring& spring, const PlacedPoint& first,
-                      const PlacedPoint& second, Model& model);
+                      const PlacedPoint& second, int over, Model& model);
 
 // Of the coordinates of a body's joint; their contacts come behind those of clearances.
 void add_stops(const JointStops& stops, int body, Model& model);

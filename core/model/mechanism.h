@@ -132,6 +132,16 @@ struct CurveStructure {
   bool operator==(const CurveStructure&) const = default;
 };
 
+// What an amplitude goes by.
+struct CourseStructure {
+  CourseShape shape = CourseShape::constant;
+  int q = -1;  // coordinate of a table; -1: time
+  bool repeats = false;
+  int begin = 0, end = 0;  // segments of a table
+  int bend = -1;           // number among what changes its stiffness along a run; -1: time
+  bool operator==(const CourseStructure&) const = default;
+};
+
 // Spring and damper on one coordinate of a tree joint, and a curve beside them.
 struct JointSpring {
   int q, v;
@@ -146,9 +156,8 @@ struct PointSpringStructure {
   SpringActs acts = SpringActs::both;
   CurveStructure curve;
   bool is_driven = false;  // has an actuator
-  CourseShape course = CourseShape::constant;
-  int table_begin = 0, table_end = 0;  // segments of a table course
-  int bend = -1;  // number among the springs whose stiffness or damping changes; -1: it does not
+  CourseStructure course;
+  int bend = -1;  // number among what changes its stiffness or damping; -1: it does not
   bool operator==(const PointSpringStructure&) const = default;
 };
 
@@ -216,9 +225,8 @@ struct LoadStructure {
   int v = -1;     // drive, resistance
   int body = -1;  // link_force, link_torque
   bool follows_link = false;
-  CourseShape course = CourseShape::constant;
+  CourseStructure course{};
   ResistanceShape law = ResistanceShape::linear;
-  int table_begin = 0, table_end = 0;  // segments of a table course
   bool operator==(const LoadStructure&) const = default;
 };
 

@@ -33,9 +33,17 @@ struct ClosureParameters {
 };
 
 template <class Real>
+struct CourseParameters {
+  Real value;   // amplitude, or the first of a table, N or N m
+  Real rate;    // 1 / duration
+  Real origin;  // where a period begins, s, rad or m
+  Real period;  // where it repeats
+};
+
+template <class Real>
 struct LoadParameters {
-  Real value;        // drive: amplitude; resistance: value / v0 or value / v0^2
-  Real rate;         // 1 / duration
+  CourseParameters<Real> course;
+  Real resistance;   // value / v0 or value / v0^2
   Vec3<Real> point;  // internal frame
   Vec3<Real> direction;
 };
@@ -66,12 +74,11 @@ struct JointSpringParameters {
 
 template <class Real>
 struct PointSpringParameters {
-  Vec3<Real> point_1, point_2;  // internal frames, m
-  Real stiffness, damping;      // N/m, N s/m
-  Real free_length;             // m
-  CurveParameters<Real> curve;  // in place of stiffness and free length
-  Real value;                   // of the actuator: amplitude, N
-  Real rate;                    // 1 / duration
+  Vec3<Real> point_1, point_2;    // internal frames, m
+  Real stiffness, damping;        // N/m, N s/m
+  Real free_length;               // m
+  CurveParameters<Real> curve;    // in place of stiffness and free length
+  CourseParameters<Real> course;  // of the actuator
 };
 
 template <class Real>

@@ -57,24 +57,27 @@ double least_energy(const ForceCurve& curve) {
 
 }  // namespace
 
-template <class Structure>
-CourseNumbers add_course(const Course& course, Structure& s, Mechanism& m, Parameters<double>& p) {
-  s.course = course.shape;
+CourseParameters<double> add_course(const Course& course, int q, CourseStructure& s, Mechanism& m,
+                                    Parameters<double>& p) {
+  s.shape = course.shape;
+  s.q = q;
+  s.repeats = course.period.has_value();
+  CourseParameters<double> n{course.value, 0.0, 0.0, course.period.value_or(0.0)};
   if (course.shape == CourseShape::table) {
-    const CurveStructure table = add_segments(course.times, course.values, m, p);
-    s.table_begin = table.begin;
-    s.table_end = table.end;
-    return {course.values.front(), 0.0};
+    const std::vector<double>& at = q < 0 ? course.times : course.positions;
+    const CurveStructure table = add_segments(at, course.values, m, p);
+    s.begin = table.begin;
+    s.end = table.end;
+    if (q >= 0 && !table.is_linear()) s.bend = m.bent_springs++;
+    n.value = course.values.front();
+    n.origin = at.front();
+    return n;
   }
   const bool rises = course.shape == CourseShape::ramp || course.shape == CourseShape::smooth;
-  if (rises && course.duration > 0.0) return {course.value, 1.0 / course.duration};
-  if (rises) s.course = CourseShape::constant;
-  return {course.value, 0.0};
+  if (rises && course.duration > 0.0) n.rate = 1.0 / course.duration;
+  if (rises && !(course.duration > 0.0)) s.shape = CourseShape::constant;
+  return n;
 }
-
-template CourseNumbers add_course(const Course&, LoadStructure&, Mechanism&, Parameters<double>&);
-template CourseNumbers add_course(const Course&, PointSpringStructure&, Mechanism&,
-                                  Parameters<double>&);
 
 CurveParameters<double> add_curve(const ForceCurve& curve, SpringActs acts, CurveStructure& s,
                                   Mechanism& m, Parameters<double>& p) {

@@ -7,16 +7,10 @@
 
 namespace linkstudy {
 
-// The numbers of a course besides its segments.
-struct CourseNumbers {
-  double value = 0.0;  // amplitude, or the first of a table
-  double rate = 0.0;   // 1 / duration
-};
-
-// The course of a load or of an actuator: shape and table of `s` (LoadStructure,
-// PointSpringStructure); appends its segments.
-template <class Structure>
-CourseNumbers add_course(const Course& course, Structure& s, Mechanism& m, Parameters<double>& p);
+// The course of a load or of an actuator; appends its segments. q: index of the coordinate that it
+// goes over, or -1.
+CourseParameters<double> add_course(const Course& course, int q, CourseStructure& s, Mechanism& m,
+                                    Parameters<double>& p);
 
 // A force, of which a spring that acts on one side has what is on that side; appends its segments.
 CurveParameters<double> add_curve(const ForceCurve& curve, SpringActs acts, CurveStructure& s,

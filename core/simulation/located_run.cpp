@@ -6,12 +6,14 @@
 
 #include "core/numerics/adaptive_integrator.h"
 #include "core/simulation/contact_events.h"
+#include "core/simulation/course_corners.h"
 #include "core/simulation/run.h"
 
 namespace linkstudy {
 namespace {
 
 constexpr double kOpen = std::numeric_limits<double>::infinity();
+constexpr double kLeastWay = 1e-9;  // of the run: shorter ways to a corner are gone in one step
 
 bool hits(const Observers& all, long step) {
   const auto hit = [step](const auto& o) { return o.sampling.hits(step); };
@@ -43,6 +45,7 @@ class LocatedRun {
         look_w_(make_workspace<double>(m)),
         now_(m_, p_, w_),
         checks_(m_, p_),
+        corners_(m_, p_),
         observers_(&case_, 1),
         integrator_(make_adaptive_integrator(options.integrator == Integrator::stiff
                                                  ? AdaptiveMethod::radau
@@ -88,6 +91,8 @@ class LocatedRun {
   }
 
   void differentiate(double t, const double* y, double* slope) {
+    // A step sees courses as they are before the corner where it ends.
+    if (t >= corner_) t = CourseCorners::before(corner_);
     y = with_motions(t, y);
     evaluate_at(t, y);
     write_slopes(m_, y, w_, slope);
@@ -149,7 +154,7 @@ class LocatedRun {
 
   void advance() {
     if (integrator_->steps() >= options_.step_limit) return fail(Cause::step_budget);
-    const StepResult result = integrator_->step(end_time());
+    const StepResult result = integrator_->step(choose_end());
     if (cause_) return;
     if (result != StepResult::accepted) return fail(Cause::diverged);
     const auto event = find_event();
@@ -163,6 +168,17 @@ class LocatedRun {
       accept();
     }
     check_accepted();
+  }
+
+  // Where the next step ends at the latest.
+  double choose_end() {
+    const double t = integrator_->t();
+    if (t == corner_) integrator_->replace(y_.data());
+    corner_ = corners_.next(t);
+    const double* y = integrator_->y();
+    const double way = corners_.way_ahead(y, y + m_.nq, w_.qdd.data());
+    const double least = kLeastWay * (end_time() - setting_.t0);
+    return std::min({end_time(), corner_, t + std::max(way, least)});
   }
 
   std::optional<ContactEvent> find_event() {
@@ -312,6 +328,8 @@ class LocatedRun {
   Workspace<double> w_, look_w_;
   Instant<double> now_;
   RunChecks<double> checks_;
+  CourseCorners corners_;
+  double corner_ = std::numeric_limits<double>::infinity();  // that the step may reach, s
   LaneObservers<double> observers_;
   std::unique_ptr<AdaptiveIntegrator> integrator_;
   ContactEvents events_;

@@ -259,7 +259,16 @@ class Checker {
                "load " + quoted(load.name) + ": link is not a moving link, got '" + load.link + "'",
                suggest_name(load.link, names));
       }
+      check_over(load.course, path, "load " + quoted(load.name));
     }
+  }
+
+  void check_over(const Course& course, const std::string& path, const std::string& who) {
+    if (!course.over) return;
+    const auto& [name, coordinate] = *course.over;
+    const std::string at = path + ".course.over";
+    const Joint* joint = check_coordinate(name, coordinate, at, who, "be gone over");
+    if (joint != nullptr) check_angles(*joint, coordinate, at, who);
   }
 
   // The joint, or nothing where it or its coordinate does not exist.
@@ -358,6 +367,7 @@ class Checker {
       const std::string who = "spring " + quoted(spring.name);
       check_point_spring(spring, path, problems_);
       check_ends(spring, path, who, "a spring acts between points of two different links");
+      if (spring.course) check_over(*spring.course, path, who);
     }
   }
 

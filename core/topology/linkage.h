@@ -320,15 +320,26 @@ unsigned blocked_directions(JointType type);
 // the ones its type blocks; none with SdeStart::given. Three springs count in their own directions.
 unsigned shut_directions(const Closure& closure);
 
-// Course of a drive or actuator over time, value * f(t / duration): ramp f = min(s, 1); smooth
-// f = 3 s^2 - 2 s^3; constant f = 1; table: linear interpolation of (times, values), ends held.
+// Course of a load or actuator over time, value * f(t / duration): ramp f = min(s, 1); smooth
+// f = 3 s^2 - 2 s^3; constant f = 1; table: linear interpolation of (times, values), ends held, or
+// over a joint coordinate of (positions, values). With a period it begins again after it, a table
+// from its first entry on; before that entry it has been repeating too.
 enum class CourseShape { constant, ramp, smooth, table };
+struct JointCoordinate {
+  std::string joint;
+  int coordinate = 0;  // within the joint; not of a quaternion
+
+  bool operator==(const JointCoordinate&) const = default;
+};
 struct Course {
   CourseShape shape = CourseShape::ramp;
   double value = 0.0;     // N or N m
   double duration = 0.0;  // s
   std::vector<double> times;
   std::vector<double> values;
+  std::optional<JointCoordinate> over{};  // of a table; empty: time
+  std::vector<double> positions{};        // rad or m, in place of times
+  std::optional<double> period{};         // s, rad or m
 
   bool operator==(const Course&) const = default;
 };

@@ -8,6 +8,7 @@
 #include "study/config/model_keys.h"
 #include "study/config/read_value.h"
 #include "study/config/rotation_reader.h"
+#include "study/config/table_files.h"
 
 namespace linkstudy {
 namespace {
@@ -86,6 +87,7 @@ Fields<JointCurve> joint_curve_fields() {
              .unit = "N m|N",
              .required = true,
              .units_by = [](const Tree&, const Tree& joint) { return curve_units(joint, true); }});
+  add_table_file(curve, {}, {{"position", "positions"}, {"effort", "efforts"}});
   return curve;
 }
 

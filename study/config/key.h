@@ -112,6 +112,9 @@ struct KeyRow {
   std::function<std::vector<std::string>(const Tree& document, const Tree& element)> units_by = {};
   // A default that depends on neighbours in the element of [[tables]], or none.
   std::function<std::optional<Tree>(const Tree& element)> derive = {};
+  // Of the head of a column in a table's `columns`: the array of the table that the column holds
+  // (table_files.h).
+  std::string held = {};
   Binding bind = {};
 };
 

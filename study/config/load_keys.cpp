@@ -5,6 +5,7 @@
 #include "study/config/model_keys.h"
 #include "study/config/read_value.h"
 #include "study/config/rotation_reader.h"
+#include "study/config/table_files.h"
 
 namespace linkstudy {
 namespace {
@@ -41,7 +42,7 @@ std::vector<std::string> resisted_speed_units(const Tree& document, const Tree& 
 
 // What was reported is no course: a constant takes the fewest keys.
 void leave_unknown_course(Load& load, Tree& course, const Reading&) {
-  if (!are_known(course, {"shape", "duration", "times", "values"})) {
+  if (!are_known(course, {"shape", "duration", "times", "positions", "values", "period", "over"})) {
     load.course.shape = CourseShape::constant;
   }
 }
@@ -125,6 +126,73 @@ void add_place(Fields<Load>& load) {
 
 }  // namespace
 
+namespace {
+
+// "rad" or "m" of the coordinate that a course goes over; nothing where it goes by time.
+std::optional<std::string> over_unit(const Tree& document, const Tree& element) {
+  const Tree* course = element.find("course");
+  const Tree* over = course == nullptr ? nullptr : course->find("over");
+  if (over == nullptr || !over->is(Tree::Kind::table)) return std::nullopt;
+  const std::optional<std::string> unit =
+      position_unit(document, word_of(*over, "joint"), integer_of(*over, "coordinate", 0));
+  return unit && *unit != "1" ? unit : std::nullopt;  // the checks report a quaternion
+}
+
+std::vector<std::string> over_units(const Tree& document, const Tree& element) {
+  const std::optional<std::string> unit = over_unit(document, element);
+  return unit ? std::vector<std::string>{*unit} : std::vector<std::string>();
+}
+
+std::vector<std::string> period_units(const Tree& document, const Tree& element) {
+  const Tree* course = element.find("course");
+  if (course == nullptr) return {};
+  const bool by_time = course->find("over") == nullptr;
+  return by_time ? std::vector<std::string>{"s"} : over_units(document, element);
+}
+
+Fields<JointCoordinate> over_fields() {
+  Fields<JointCoordinate> over;
+  over.add("joint", &JointCoordinate::joint,
+           {.type = name, .meaning = "joint of the tree", .required = true});
+  over.add("coordinate", &JointCoordinate::coordinate,
+           {.meaning = "coordinate within the joint, from 0; none of a quaternion",
+            .range = {.low = 0, .high = 5}});
+  return over;
+}
+
+void add_table(const std::string& unit, const UnitsBy& units_by, Fields<Course>& course) {
+  const Condition in_table = only_where("shape", {CourseShape::table});
+  course.table(
+      "over", &Course::over,
+      {.meaning = "joint coordinate that positions are of, such as a crank angle; default: "
+                  "a table over time",
+       .only = in_table},
+      over_fields());
+  course.add("times", &Course::times,
+             {.meaning = "times, increasing",
+              .unit = "s",
+              .required = true,
+              .group = "points",
+              .only = in_table});
+  course.add("positions", &Course::positions,
+             {.meaning = "values of the coordinate `over`, increasing",
+              .unit = "rad|m",
+              .required = true,
+              .group = "points",
+              .only = in_table,
+              .units_by = over_units});
+  course.add("values", &Course::values,
+             {.meaning = "values at times or positions; linear between, held outside",
+              .unit = unit,
+              .required = true,
+              .only = in_table,
+              .units_by = units_by});
+  add_table_file(course, in_table,
+                 {{"time", "times"}, {"position", "positions"}, {"value", "values"}});
+}
+
+}  // namespace
+
 Fields<Course> course_fields(const std::string& unit, const UnitsBy& units_by) {
   using enum CourseShape;
   Fields<Course> course;
@@ -141,17 +209,14 @@ Fields<Course> course_fields(const std::string& unit, const UnitsBy& units_by) {
               .range = kPositive,
               .required = true,
               .only = only_where("shape", {ramp, smooth})});
-  course.add("times", &Course::times,
-             {.meaning = "times, increasing",
-              .unit = "s",
-              .required = true,
-              .only = only_where("shape", {CourseShape::table})});
-  course.add("values", &Course::values,
-             {.meaning = "values at times; linear between, held outside",
-              .unit = unit,
-              .required = true,
-              .only = only_where("shape", {CourseShape::table}),
-              .units_by = units_by});
+  add_table(unit, units_by, course);
+  course.add("period", &Course::period,
+             {.meaning = "after which the course begins again, a table from its first entry on; "
+                         "where it does not end as it begins it jumps; default: it goes once",
+              .unit = "s|rad|m",
+              .range = kPositive,
+              .only = only_where("shape", {ramp, smooth, CourseShape::table}),
+              .units_by = period_units});
   return course;
 }
 
@@ -162,7 +227,7 @@ Fields<Load> load_fields() {
   load.read_word<LoadKind>("type", {.required = true}, read_type);
   add_place(load);
   load.table("course", &Load::course,
-             {.meaning = "course over time",
+             {.meaning = "course over time, or over a joint coordinate",
               .required = true,
               .only = only_where("type", {torque, force, link_force, link_torque})},
              course_fields("N|N m", course_units), leave_unknown_course);

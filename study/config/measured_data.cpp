@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "core/topology/nearest_name.h"
+#include "study/config/key.h"
 #include "study/config/toml_reader.h"
 
 namespace linkstudy {
@@ -86,7 +87,10 @@ std::vector<CsvLine> split_text(std::string_view text) {
 class CsvReader {
  public:
   CsvReader(const std::string& path, std::vector<CsvLine> lines, Diagnostics& diagnostics)
-      : path_(path), lines_(std::move(lines)), diagnostics_(diagnostics) {}
+      : path_(path),
+        file_(make_location(path).file),
+        lines_(std::move(lines)),
+        diagnostics_(diagnostics) {}
 
   // SI values of a column; empty when it was reported.
   MeasuredChannel read(const WantedColumn& wanted) {
@@ -101,6 +105,31 @@ class CsvReader {
                                         : std::numeric_limits<double>::quiet_NaN());
     }
     return channel;
+  }
+
+  // The numbers of a column as an array; incomplete when something was reported.
+  Tree read_array(const WantedArray& wanted) {
+    Tree array = Tree::make_array({}, wanted.column.channel_at);
+    const std::optional<std::size_t> column = find_head(wanted.column);
+    MeasuredChannel channel;
+    if (!column || !read_unit(*column, channel)) return array;
+    const std::string unit = channel.unit ? find_unit(*channel.unit, wanted.units) : std::string();
+    if (channel.unit && unit.empty()) {
+      report(lines_.front(), *column,
+             fmt::format("column '{}' must be in {}", wanted.column.head,
+                         fmt::join(unit_alternatives(wanted.units), " or ")),
+             "choose another column, or mend the unit of its head");
+      return array;
+    }
+    const std::optional<Unit> to = unit.empty() ? std::nullopt : parse_unit(unit);
+    for (std::size_t row = 1; row < lines_.size(); ++row) {
+      const std::optional<double> written = written_number(lines_[row], *column);
+      if (!written) continue;
+      const double number = to ? *convert_unit(*written, *channel.unit, *to) : *written;
+      array.items.push_back(Tree::make_number(number, place(lines_[row], *column)));
+      array.items.back().text = unit;
+    }
+    return array;
   }
 
   void require_rising(const std::vector<double>& times, std::size_t column) {
@@ -142,6 +171,28 @@ class CsvReader {
     return false;
   }
 
+  // The first of "N|N m" that the unit can be converted to, or nothing.
+  static std::string find_unit(const Unit& unit, const std::string& units) {
+    for (const std::string& one : unit_alternatives(units)) {
+      const std::optional<Unit> to = parse_unit(one);
+      if (to && convert_unit(1.0, unit, *to)) return one;
+    }
+    return {};
+  }
+
+  // Of a line that must have one.
+  std::optional<double> written_number(const CsvLine& line, std::size_t column) {
+    const std::size_t before = reports_;
+    const double number = column < line.cells.size() ? number_of_cell(line, column)
+                                                     : std::numeric_limits<double>::quiet_NaN();
+    if (std::isfinite(number)) return number;
+    if (reports_ == before) {
+      report(line, column, "this line has no number in the column",
+             "every line of a table needs both of its numbers");
+    }
+    return std::nullopt;
+  }
+
   double number_of_cell(const CsvLine& line, std::size_t column) {
     const std::string& text = line.cells[column].text;
     constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
@@ -158,15 +209,28 @@ class CsvReader {
 
   void report(const CsvLine& line, std::size_t column, std::string message, std::string remedy) {
     if (reports_++ >= kMostReports) return;
-    diagnostics_.add(make_location(path_, line.number, line.cells[column].column),
-                     std::move(message), std::move(remedy));
+    diagnostics_.add(place(line, column), std::move(message), std::move(remedy));
+  }
+
+  // Of a cell, or of the last where the line is too short.
+  Location place(const CsvLine& line, std::size_t column) const {
+    return {file_, line.number, line.cells[std::min(column, line.cells.size() - 1)].column};
   }
 
   const std::string& path_;
+  std::shared_ptr<const std::string> file_;
   std::vector<CsvLine> lines_;
   Diagnostics& diagnostics_;
   std::size_t reports_ = 0;
 };
+
+bool require_numbers(const std::vector<CsvLine>& lines, const std::string& path, const Location& at,
+                     Diagnostics& diagnostics) {
+  if (lines.size() >= 2) return true;
+  diagnostics.add(at, fmt::format("data '{}': there are no lines of numbers in it", path),
+                  "a line of heads comes first, then a line for every instant");
+  return false;
+}
 
 }  // namespace
 
@@ -187,11 +251,7 @@ std::shared_ptr<const MeasuredData> parse_measured_data(std::string text, const 
   auto data = std::make_shared<MeasuredData>();
   data->text = std::move(text);
   std::vector<CsvLine> lines = split_text(data->text);
-  if (lines.size() < 2) {
-    diagnostics.add(at, fmt::format("data '{}': there are no lines of numbers in it", path),
-                    "a line of heads comes first, then a line for every instant");
-    return nullptr;
-  }
+  if (!require_numbers(lines, path, at, diagnostics)) return nullptr;
   Diagnostics found;
   CsvReader reader(path, std::move(lines), found);
   for (const WantedColumn& column : wanted) {
@@ -210,6 +270,21 @@ std::shared_ptr<const MeasuredData> parse_measured_data(std::string text, const 
   }
   diagnostics.append(found);
   return found.empty() ? data : nullptr;
+}
+
+std::optional<std::vector<Tree>> parse_arrays(const std::string& text, const std::string& path,
+                                              const Location& at,
+                                              const std::vector<WantedArray>& wanted,
+                                              Diagnostics& diagnostics) {
+  std::vector<CsvLine> lines = split_text(text);
+  if (!require_numbers(lines, path, at, diagnostics)) return std::nullopt;
+  Diagnostics found;
+  CsvReader reader(path, std::move(lines), found);
+  std::vector<Tree> arrays;
+  for (const WantedArray& one : wanted) arrays.push_back(reader.read_array(one));
+  diagnostics.append(found);
+  if (!found.empty()) return std::nullopt;
+  return arrays;
 }
 
 }  // namespace linkstudy

@@ -1,4 +1,5 @@
-// Measured histories from a CSV file: a line of heads, then a line of numbers for every instant.
+// Measured histories and tables from a CSV file: a line of heads, then a line of numbers for every
+// instant.
 //   - heads may end in a unit in brackets, "Fx [kN]"; numbers are converted to SI units
 //   - cells are separated by what separates the heads: tab, else ';', else ','; quotes: RFC 4180
 //   - lines that begin with '#', and empty ones, are left out, as the units of `simulate --csv`
@@ -10,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "study/config/diagnostic.h"
+#include "study/config/tree.h"
 #include "study/config/unit.h"
 
 namespace linkstudy {
@@ -36,6 +37,12 @@ struct WantedColumn {
   Location head_at;
 };
 
+// A column whose numbers are an array of an input.
+struct WantedArray {
+  WantedColumn column;
+  std::string units;  // "N|N m": the head has a unit of one of them, or none
+};
+
 // The text of a file; one that cannot be opened is reported at `at`.
 std::optional<std::string> read_data_text(const std::string& path, const Location& at,
                                           Diagnostics& diagnostics);
@@ -45,5 +52,12 @@ std::shared_ptr<const MeasuredData> parse_measured_data(std::string text, const 
                                                         const Location& at,
                                                         const std::vector<WantedColumn>& wanted,
                                                         Diagnostics& diagnostics);
+
+// The columns as arrays of numbers in the unit that was wanted, each with its place in the file.
+// Nothing when anything was reported: here every line needs its number.
+std::optional<std::vector<Tree>> parse_arrays(const std::string& text, const std::string& path,
+                                              const Location& at,
+                                              const std::vector<WantedArray>& wanted,
+                                              Diagnostics& diagnostics);
 
 }  // namespace linkstudy

@@ -5,6 +5,7 @@
 
 #include "core/flexible/rigid_finite_elements.h"
 #include "core/topology/nearest_name.h"
+#include "study/config/table_files.h"
 #include "study/config/toml_reader.h"
 #include "study/config/validate.h"
 #include "study/config/value_path.h"
@@ -16,6 +17,15 @@ std::vector<std::string> kind_words() {
   std::vector<std::string> words;
   for (const Word<FileKind>& known : kWords<FileKind>) words.emplace_back(known.text);
   return words;
+}
+
+// The model with its tables, of which some stand in files. What else is wrong is said too.
+std::optional<Tree> with_tables(std::optional<Tree> tree, const std::string& file,
+                                Diagnostics& diagnostics) {
+  if (!tree || read_table_files(*tree, model_schema(), file, diagnostics)) return tree;
+  validate(*tree, model_schema(), diagnostics);
+  read_model(std::move(*tree), diagnostics);
+  return std::nullopt;
 }
 
 std::optional<Tree> require_model(std::optional<Tree> tree, Diagnostics& diagnostics) {
@@ -66,14 +76,16 @@ std::optional<FileKind> kind_of(const Tree& document, Diagnostics& diagnostics) 
 
 std::optional<ModelDocument> ModelDocument::load(const std::string& path,
                                                  Diagnostics& diagnostics) {
-  std::optional<Tree> tree = require_model(read_toml_file(path, diagnostics), diagnostics);
+  std::optional<Tree> tree =
+      with_tables(require_model(read_toml_file(path, diagnostics), diagnostics), path, diagnostics);
   if (!tree) return std::nullopt;
   return ModelDocument(std::move(*tree), path);
 }
 
 std::optional<ModelDocument> ModelDocument::parse(std::string_view text, const std::string& file,
                                                   Diagnostics& diagnostics) {
-  std::optional<Tree> tree = require_model(parse_toml(text, file, diagnostics), diagnostics);
+  std::optional<Tree> tree = with_tables(
+      require_model(parse_toml(text, file, diagnostics), diagnostics), file, diagnostics);
   if (!tree) return std::nullopt;
   return ModelDocument(std::move(*tree), file);
 }

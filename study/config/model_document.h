@@ -12,7 +12,7 @@ namespace linkstudy {
 
 class ModelDocument {
  public:
-  // Reads the text only: whether the values are right is said by with().
+  // Reads the text and the files of its tables: whether the values are right is said by with().
   static std::optional<ModelDocument> load(const std::string& path, Diagnostics& diagnostics);
   static std::optional<ModelDocument> parse(std::string_view text, const std::string& file,
                                             Diagnostics& diagnostics);

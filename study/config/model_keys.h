@@ -33,7 +33,7 @@ Fields<FlexibleBeam> flexible_fields();
 Fields<Clearance> clearance_fields();
 Fields<Clearance> contact_fields();
 
-// A course over time of values in this unit.
+// A course of values in this unit.
 using UnitsBy = std::function<std::vector<std::string>(const Tree& document, const Tree& element)>;
 Fields<Course> course_fields(const std::string& unit, const UnitsBy& units_by);
 

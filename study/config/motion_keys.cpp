@@ -2,6 +2,7 @@
 #include "study/config/joint_units.h"
 #include "study/config/model_keys.h"
 #include "study/config/read_value.h"
+#include "study/config/table_files.h"
 
 namespace linkstudy {
 namespace {
@@ -98,6 +99,7 @@ Fields<Motion> motion_law_fields() {
            .required = true,
            .only = in_table,
            .units_by = moved_units});
+  add_table_file(law, in_table, {{"time", "times"}, {"position", "positions"}});
   return law;
 }
 

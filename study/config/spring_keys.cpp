@@ -1,6 +1,7 @@
 // The keys of [[spring]].
 #include "study/config/model_keys.h"
 #include "study/config/read_value.h"
+#include "study/config/table_files.h"
 
 namespace linkstudy {
 namespace {
@@ -24,12 +25,15 @@ Fields<ForceCurve> force_over_length_fields() {
                         "linear between, held outside",
              .unit = "N",
              .required = true});
+  add_table_file(curve, {}, {{"length", "lengths"}, {"force", "forces"}});
   return curve;
 }
 
 // What was reported is no course and no table.
 void leave_unknown_actuator(PointSpring& spring, Tree& course, const Reading&) {
-  if (!are_known(course, {"shape", "value", "duration", "times", "values"})) spring.course.reset();
+  const bool is_known = are_known(
+      course, {"shape", "value", "duration", "times", "positions", "values", "period", "over"});
+  if (!is_known) spring.course.reset();
 }
 void leave_unknown_table(PointSpring& spring, Tree& table, const Reading&) {
   if (!are_known(table, {"lengths", "forces"})) spring.force.reset();
@@ -75,7 +79,8 @@ Fields<PointSpring> point_spring_fields() {
       {.meaning = "force over length in place of stiffness and free_length", .group = "elastic"},
       force_over_length_fields(), leave_unknown_table);
   spring.table("course", &PointSpring::course,
-               {.meaning = "force of an actuator over time, positive where it pulls the points "
+               {.meaning = "force of an actuator over time or a joint coordinate, positive where "
+                           "it pulls the points "
                            "together; default: none"},
                course_fields("N", {}), leave_unknown_actuator);
   spring.finish(leave_unknown_law);

@@ -111,7 +111,8 @@ Linkage spatial_slider_crank_cut_at_universal() {
   Linkage linkage = base("spatial_slider_crank_cut_at_universal");
   Joint S = make_joint("S", JointType::spherical, "crank", "rod");
   S.frame.position = Vector3d(0, 0, g.crank);
-  S.child_frame = {R.transpose(), Vector3d(g.rod, 0, 0)};  // so that psi = theta = phi = 0
+  S.child_frame.rotation = R.transpose();  // so that psi = theta = phi = 0
+  S.child_frame.position = Vector3d(g.rod, 0, 0);
   S.position = {0.0, 0.0, 0.0};
   const Vector3d relative = rod_spin(pose) - Vector3d(6.0, 0, 0);
   S.velocity = {relative.z(), relative.y(), relative.x()};

@@ -11,6 +11,7 @@
 #include "tests/mechanisms/n_four_bar.h"
 #include "tests/mechanisms/pendulum.h"
 #include "tests/mechanisms/random_linkages.h"
+#include "tests/mechanisms/repeating_loads.h"
 #include "tests/mechanisms/rsrrp.h"
 #include "tests/support/engine_probe.h"
 #include "tests/support/same_bits.h"
@@ -139,6 +140,9 @@ std::vector<Linkage> linkages() {
   replaced.closures[0].model = ClosureModel::sde;
   all.push_back(replaced);
   for (std::uint64_t seed = 0; seed < 6; ++seed) all.push_back(random_tree(seed));
+  Linkage repeating = rsrrp();
+  add_repeating_loads("A", "coupler", 2.0, repeating);
+  all.push_back(repeating);
   for (const JointType type :
        {JointType::spherical, JointType::revolute, JointType::universal, JointType::prismatic,
         JointType::cylindrical, JointType::planar, JointType::fixed}) {

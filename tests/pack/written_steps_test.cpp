@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "core/simulation/prepare.h"
+#include "tests/mechanisms/repeating_loads.h"
 #include "tests/pack/shipped_models.h"
 #include "tests/support/same_bits.h"
 #include "tests/support/simd_levels.h"
@@ -104,6 +105,23 @@ TEST(WrittenSteps, Of_cut_and_replacement_joints_have_them_over_ten_thousand_ste
     }
   }
   EXPECT_GE(seen, 30);
+  EXPECT_EQ(written_report().untraceable, 0) << written_report().why;
+}
+
+// Lanes that differ in their position find their part of a table one by one.
+TEST(WrittenSteps, Of_loads_that_repeat_and_go_over_a_coordinate_have_them) {
+  if (!machine_has(InstructionSet::avx2)) GTEST_SKIP() << "no fused instructions here";
+  const SimdLevel level{InstructionSet::avx2, 4};
+  for (const ClosureModel closures : {ClosureModel::cut, ClosureModel::sde}) {
+    ModelInput input = read_model(source_file("configs/mechanisms/rsrrp.toml"));
+    set_closures(closures, input.linkage);
+    add_repeating_loads("A", "coupler", 2.0, input.linkage);
+    input.options.end_time = 1e4 * input.options.step;
+    const Preparation p = prepare(input.linkage, input.options);
+    ASSERT_EQ(p.cause, Cause::ok) << p.message;
+    expect_same(run(p.model, input.options, 5, 7, level, Kernels::written),
+                run(p.model, input.options, 5, 7, level, Kernels::general));
+  }
   EXPECT_EQ(written_report().untraceable, 0) << written_report().why;
 }
 

@@ -44,7 +44,7 @@ MechanismStructure full_structure() {
   m.support = {0};
   m.loads.push_back({LoadType::drive});
   m.joint_springs.push_back({0, 0});
-  m.point_springs.push_back({.first = 0, .second = 1, .curve = {}});
+  m.point_springs.push_back({.first = 0, .second = 1, .curve = {}, .course = {}});
   m.clearances.push_back(
       {.closure = 0, .bearing_first = false, .hertz = false, .contact_begin = 0, .contact_end = 1});
   m.contacts.push_back({0, 0.0});
@@ -166,17 +166,19 @@ TEST(SameStructure, Counts_every_member_of_contacts_friction_springs_and_loads) 
        [](M& m) { m.point_springs[0].acts = SpringActs::tension; },
        [](M& m) { m.point_springs[0].curve.end = 9; },
        [](M& m) { m.point_springs[0].is_driven = true; },
-       [](M& m) { m.point_springs[0].course = CourseShape::ramp; },
-       [](M& m) { m.point_springs[0].table_begin = 9; },
-       [](M& m) { m.point_springs[0].table_end = 9; }, [](M& m) { m.point_springs[0].bend = 9; }});
+       [](M& m) { m.point_springs[0].course.q = 9; }, [](M& m) { m.point_springs[0].bend = 9; }});
   expect_each_counts<CurveStructure>({[](M& m) { m.point_springs[0].curve.begin = 9; },
                                       [](M& m) { m.point_springs[0].curve.end = 9; }});
   expect_each_counts<LoadStructure>(
       {[](M& m) { m.loads[0].type = LoadType::resistance; }, [](M& m) { m.loads[0].v = 9; },
        [](M& m) { m.loads[0].body = 9; }, [](M& m) { m.loads[0].follows_link = true; },
-       [](M& m) { m.loads[0].course = CourseShape::ramp; },
-       [](M& m) { m.loads[0].law = ResistanceShape::quadratic; },
-       [](M& m) { m.loads[0].table_begin = 9; }, [](M& m) { m.loads[0].table_end = 9; }});
+       [](M& m) { m.loads[0].course.shape = CourseShape::ramp; },
+       [](M& m) { m.loads[0].law = ResistanceShape::quadratic; }});
+  expect_each_counts<CourseStructure>(
+      {[](M& m) { m.loads[0].course.shape = CourseShape::ramp; },
+       [](M& m) { m.loads[0].course.q = 9; }, [](M& m) { m.loads[0].course.repeats = true; },
+       [](M& m) { m.loads[0].course.begin = 9; }, [](M& m) { m.loads[0].course.end = 9; },
+       [](M& m) { m.loads[0].course.bend = 9; }});
 }
 
 TEST(SameStructure, Counts_every_member_of_a_joint_that_shares_reactions) {

@@ -324,6 +324,38 @@ TEST(Check, Courses_and_laws_have_positive_durations_and_speeds) {
                                           "load.F2.course.times.2", "load.F3.law.at_speed"));
 }
 
+TEST(Check, Courses_that_repeat_have_room_in_their_period_and_tables_what_they_go_over) {
+  Linkage linkage = make_tree();
+  linkage.loads.assign(9, make_drive("A"));
+  for (std::size_t i = 0; i < 9; ++i) {
+    Course& course = linkage.loads[i].course;
+    linkage.loads[i].name = "F" + std::to_string(i);
+    course = {CourseShape::table, 0.0, 0.0, {}, {0.0, 1.0}};
+    course.over = JointCoordinate{"A", 0};
+    course.positions = {-1.0, 1.0};
+    course.period = 2.0 * (1.0 - 1e-15);
+  }
+  EXPECT_THAT(paths(linkage), IsEmpty());
+  const auto course = [&](std::size_t i) -> Course& { return linkage.loads[i].course; };
+  course(0).period = 1.9;
+  course(1).period = 0.0;
+  course(2).positions = {0.0};
+  course(2).values = {0.0};
+  course(3).positions.swap(course(3).times);
+  course(4).over.reset();
+  course(5).over->joint = "X";
+  course(6).over->coordinate = 1;
+  course(7).positions = {1.0, -1.0};
+  course(8) = {CourseShape::ramp, 1.0, 0.5, {}, {}};
+  course(8).period = 0.4;
+  EXPECT_THAT(
+      paths(linkage),
+      ::testing::UnorderedElementsAre(
+          "load.F0.course.period", "load.F1.course.period", "load.F2.course.period",
+          "load.F3.course.times", "load.F4.course.positions", "load.F5.course.over.joint",
+          "load.F6.course.over.coordinate", "load.F7.course.positions.1", "load.F8.course.period"));
+}
+
 TEST(Check, A_point_is_on_a_link_or_on_ground_at_a_finite_place) {
   Linkage linkage = make_tree();
   linkage.points.assign(4, {"", "a", Eigen::Vector3d::Ones()});

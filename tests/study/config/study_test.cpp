@@ -1,4 +1,5 @@
 // Study and tune files: what is read, what is wrong with them, and that they fit their model.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,6 +8,7 @@
 
 #include "config_text.h"
 #include "study/config/check_file.h"
+#include "study/config/precedence.h"
 #include "study/config/toml_writer.h"
 
 namespace linkstudy::study_test {
@@ -154,6 +156,54 @@ TEST(Study, Base_reference_and_load_cases_build_their_models) {
   EXPECT_EQ(reference->linkage.closures[0].model, ClosureModel::cut);
   const auto fast = input.model->with(input.load_case[0].set, diagnostics);
   EXPECT_EQ(fast->linkage.loads[1].law.at_speed, 12.0);
+}
+
+// As a whole or by components, and where the model is silent; of its reference too.
+TEST(Study, Every_kind_takes_gravity_by_load_case) {
+  const std::string cases = R"(
+[reference]
+set = { "closure.S.model" = "cut" }
+[[match]]
+signal = "closure.S.force"
+tolerance = 0.1
+[[load_case]]
+name = "earth"
+[[load_case]]
+name = "moon"
+set = { gravity = [0, -1.62, "0 m/s^2"] }
+[[load_case]]
+name = "tilted"
+set = { "gravity.0" = "0.5 g0" }
+)";
+  const std::pair<const char*, const char*> kinds[] = {
+      {"study", "[[vary]]\nparameter = \"link.crank.mass\"\nvalues = [1, 2]\n"},
+      {"tune", "[[tune]]\nparameter = \"link.crank.mass\"\nrange = { lin = [1, 2] }\n"},
+      {"converge",
+       "[[refine]]\nparameter = \"link.crank.mass\"\nladder = { from = 1, ratio = 2, levels = 3 }\n"
+       "limit = \"infinity\"\n"}};
+  const std::string silent = test::replaced(kRsrrp, "gravity = [0.0, -9.81, 0.0]", "");
+  for (const auto& [kind, parameter] : kinds) {
+    for (const bool speaks : {true, false}) {
+      SCOPED_TRACE(kind);
+      test::write_file("rsrrp.toml", speaks ? kRsrrp : silent);
+      const std::string text = fmt::format(
+          "format = 1\nkind = \"{}\"\nmodel = \"rsrrp.toml\"\n{}{}", kind, parameter, cases);
+      Diagnostics diagnostics;
+      const auto input = read_study(test::write_file("gravity.toml", text), {}, diagnostics);
+      ASSERT_TRUE(input) << to_string(diagnostics);
+      const Eigen::Vector3d own(0, speaks ? -9.81 : 0.0, 0);
+      const Eigen::Vector3d expected[] = {
+          own, {0, -1.62, 0}, own + Eigen::Vector3d(4.903325, 0, 0)};
+      for (std::size_t i = 0; i < 3; ++i) {
+        const LoadCaseInput& one = input->load_case[i];
+        const auto model = input->model->with(case_overrides(*input, one, {}), diagnostics);
+        const auto reference =
+            input->reference->model->with(reference_overrides(*input, one), diagnostics);
+        EXPECT_LT((model->linkage.gravity - expected[i]).norm(), 1e-15) << one.name;
+        EXPECT_LT((reference->linkage.gravity - expected[i]).norm(), 1e-15) << one.name;
+      }
+    }
+  }
 }
 
 TEST(Study, Varied_values_are_expanded_in_the_unit_of_their_key) {
