@@ -59,12 +59,19 @@ class DividedBeam {
                        beam_.shear * beam_.torsion_constant / segment_};
     joint.rest.assign(3, 0.0);
     joint.elastic = true;
+    joint.position = of_joint(beam_.position, k);
+    joint.velocity = of_joint(beam_.velocity, k);
     joint.hold = true;  // a start is closed by the joints, not by bending links
     for (const double c : joint.stiffness) joint.damping.push_back(beam_.retardation * c);
     return joint;
   }
 
  private:
+  static std::vector<double> of_joint(const std::vector<double>& all, int k) {
+    if (all.empty()) return {};
+    return {all.begin() + 3 * (k - 1), all.begin() + 3 * k};
+  }
+
   double joint_at(int k) const { return (k - 0.5) * segment_; }
 
   Eigen::Matrix3d rod_inertia(double mass, double length) const {

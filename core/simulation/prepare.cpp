@@ -27,6 +27,7 @@ namespace {
 
 constexpr double kLinearTurn = 45.0;         // deg
 constexpr double kLargeTurn = 150.0;         // deg
+constexpr double kFoundVelocity = 1e-9;      // of the largest given velocity: more is a motion
 constexpr double kVelocityTolerance = 1e-6;  // of the largest velocity
 constexpr double kStatedVelocity = 1e-3;     // of the largest: stated ones are rounded
 constexpr double kSlightEffort = 1e-9;       // of the largest weight or load
@@ -195,6 +196,7 @@ void warn_of_changed_velocities(const Linkage& linkage, const State<double>& giv
   for (int k = 0; k < m.nv; ++k) {
     const auto i = static_cast<std::size_t>(k);
     const double asked = given.v[i], got = p.model.start.v[i];
+    if (asked == 0.0 && std::abs(got) > kFoundVelocity * largest) p.found_velocities.push_back(k);
     if (asked == 0.0 || std::abs(got - asked) <= kStatedVelocity * largest) continue;
     p.warnings.push_back(velocity_name(m, k) + ": its initial velocity is " + number(got) +
                          " instead of the given " + number(asked) +

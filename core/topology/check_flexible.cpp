@@ -57,6 +57,20 @@ void check_section(const FlexibleBeam& beam, RecordCheck& record) {
   record.require_not_negative("flexible.retardation", beam.retardation);
 }
 
+void check_start(const FlexibleBeam& beam, RecordCheck& record) {
+  const auto count = 3 * static_cast<std::size_t>(std::max(beam.segments, 0));
+  const auto check_list = [&](const std::string& key, const std::vector<double>& list) {
+    record.require_finite(key, all_finite(list));
+    if (list.empty() || list.size() == count) return;
+    record.report(key,
+                  key + " must have 3 numbers for each of the " + std::to_string(beam.segments) +
+                      " segments, got " + std::to_string(list.size()),
+                  "give psi, theta, phi of every element from begin to end");
+  };
+  check_list("flexible.initial.position", beam.position);
+  check_list("flexible.initial.velocity", beam.velocity);
+}
+
 void check_center(const Link& link, RecordCheck& record) {
   const FlexibleBeam& beam = *link.flexible;
   const Eigen::Vector3d middle = 0.5 * (beam.begin + beam.end);
@@ -98,6 +112,7 @@ void check_moments(const Link& link, RecordCheck& record) {
 void check_flexible(const Link& link, const std::string& path, std::vector<Problem>& problems) {
   RecordCheck record{path, "link '" + link.name + "'", problems};
   check_section(*link.flexible, record);
+  check_start(*link.flexible, record);
   if (!check_axes(*link.flexible, record)) return;
   if (link.center_of_mass.allFinite()) check_center(link, record);
   const bool is_body = std::isfinite(link.mass) && link.mass > 0.0;

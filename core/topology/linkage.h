@@ -42,6 +42,10 @@ struct FlexibleBeam {
   double second_moment_z = 0.0;                       // J_z = integral y^2 dA: bending about z, m^4
   double torsion_constant = 0.0;                      // J_t, m^4
   double retardation = 0.0;  // eta / E of Kelvin and Voigt, s: damping = stiffness * this
+  // Start: psi, theta, phi of every sde from begin to end (core/flexible), and their rates; held
+  // while the rest is assembled. Empty: straight, at rest.
+  std::vector<double> position;  // (3 segments) rad
+  std::vector<double> velocity;  // (3 segments) rad/s
 
   bool operator==(const FlexibleBeam&) const = default;
 };

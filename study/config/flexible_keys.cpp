@@ -90,6 +90,17 @@ std::optional<Tree> choose_across(const Tree& link) {
   return axis;
 }
 
+Fields<FlexibleBeam> bent_fields() {
+  Fields<FlexibleBeam> start;
+  start.add("position", &FlexibleBeam::position,
+            {.meaning = "angles psi, theta, phi of every element from begin to end, each about z, "
+                        "the new y, the new x of the beam; default: straight",
+             .unit = "rad"});
+  start.add("velocity", &FlexibleBeam::velocity,
+            {.meaning = "their rates; default: at rest", .unit = "rad/s"});
+  return start;
+}
+
 }  // namespace
 
 Fields<FlexibleBeam> flexible_fields() {
@@ -132,6 +143,10 @@ Fields<FlexibleBeam> flexible_fields() {
   beam.table("section",
              {.meaning = "cross-section of the beam, the same along it", .required = true},
              section_fields(), read_section);
+  beam.table("initial",
+             {.meaning = "start of the beam, held while the rest is assembled; statics bends it "
+                         "anew; default: straight and at rest"},
+             bent_fields());
   return beam;
 }
 

@@ -2,17 +2,37 @@
 
 #include <algorithm>
 
+#include "core/topology/flexible_beam.h"
 #include "study/config/toml_writer.h"
 
 namespace linkstudy {
 namespace {
 
-Tree numbers_tree(const std::vector<double>& values, int begin, int count) {
-  Tree list = Tree::make_array();
+void append_numbers(const std::vector<double>& values, int begin, int count, Tree& list) {
   for (int i = 0; i < count; ++i) {
     list.items.push_back(Tree::make_number(values[static_cast<std::size_t>(begin + i)]));
   }
+}
+
+Tree numbers_tree(const std::vector<double>& values, int begin, int count) {
+  Tree list = Tree::make_array();
+  append_numbers(values, begin, count, list);
   return list;
+}
+
+// The angles of a flexible link's elements are those of joints of its own.
+void start_beam(const Link& link, const Model& started, Tree& tree) {
+  const Mechanism& m = started.mechanism;
+  Tree initial = Tree::make_table();
+  Tree& position = initial.set("position", Tree::make_array());
+  Tree& velocity = initial.set("velocity", Tree::make_array());
+  for (int k = 1; k <= link.flexible->segments; ++k) {
+    const auto name = std::ranges::find(m.joint_names, element_joint_name(link.name, k));
+    const Body& body = m.bodies[static_cast<std::size_t>(name - m.joint_names.begin())];
+    append_numbers(started.start.q, body.q_begin, body.q_count, position);
+    append_numbers(started.start.v, body.v_begin, body.v_count, velocity);
+  }
+  tree.find("flexible")->set("initial", std::move(initial));
 }
 
 }  // namespace
@@ -28,6 +48,12 @@ std::string started_model_text(const ModelInput& input, const Model& started) {
     Tree& start = initial != nullptr ? *initial : joint.set("initial", Tree::make_table());
     start.set("position", numbers_tree(started.start.q, body.q_begin, body.q_count));
     start.set("velocity", numbers_tree(started.start.v, body.v_begin, body.v_count));
+  }
+  for (const Link& link : input.linkage.links) {
+    if (!link.flexible) continue;
+    for (Tree& tree : model.find("link")->items) {
+      if (tree.find("name")->text == link.name) start_beam(link, started, tree);
+    }
   }
   return write_toml(model);
 }

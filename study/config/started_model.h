@@ -9,8 +9,8 @@
 namespace linkstudy {
 
 // The resolved input with `initial.position` and `.velocity` of every joint as they are in
-// `started` (assembled, at equilibrium where that was asked for), to the last bit. What elements
-// inside flexible links do cannot be written.
+// `started` (assembled, at equilibrium where that was asked for), to the last bit; flexible links
+// with `flexible.initial`.
 std::string started_model_text(const ModelInput& input, const Model& started);
 
 }  // namespace linkstudy

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/dynamics/static_balance.h"
 #include "study/record/json_number.h"
 #include "study/report/modes_report.h"
 
@@ -133,6 +134,23 @@ std::string json_text(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+// What the closures make of the velocities that are given; all of them: simulate --write-start.
+std::string velocities_text(const Preparation& preparation) {
+  constexpr std::size_t most = 4;
+  const Model& model = preparation.model;
+  const std::vector<int>& found = preparation.found_velocities;
+  std::vector<std::string> parts;
+  for (const int k : found) {
+    if (parts.size() == most) break;
+    const auto i = static_cast<std::size_t>(k);
+    const bool shifts = model.mechanism.velocities[i].kind == VelocityKind::translation;
+    parts.push_back(fmt::format("{} = {:.6g} {}", velocity_name(model.mechanism, k),
+                                model.start.v[i], shifts ? "m/s" : "rad/s"));
+  }
+  if (found.size() > most) parts.push_back(fmt::format("{} more", found.size() - most));
+  return fmt::format("follow from those given: {}", fmt::join(parts, ", "));
+}
+
 }  // namespace
 
 std::vector<Finding> preparation_findings(const Preparation& preparation,
@@ -143,6 +161,9 @@ std::vector<Finding> preparation_findings(const Preparation& preparation,
   if (!preparation.assembly.closed) return findings;
   findings.push_back(
       {"mobility", mobility_text(preparation.assembly, preparation.model.mechanism.nv)});
+  if (!preparation.found_velocities.empty()) {
+    findings.push_back({"velocities", velocities_text(preparation)});
+  }
   if (preparation.statics) add_equilibrium(preparation, findings);
   if (preparation.cause != Cause::ok) return findings;
   findings.push_back({"omega_max", fmt::format("{:.6g} rad/s at the start", spectrum.omega_max)});

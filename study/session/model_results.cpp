@@ -61,6 +61,18 @@ ModelInput stored_model(const StudyResults& results) {
   return std::move(*input);
 }
 
+// The matrix equations of loops are over the coordinates of the joint that closes them.
+void refuse_rods(const ModelInput& input) {
+  Diagnostics diagnostics;
+  for (const Closure& closure : input.linkage.closures) {
+    if (closure.type != JointType::rod) continue;
+    diagnostics.add(locate(input.resolved, "closure." + closure.name + ".type"),
+                    fmt::format("closure '{}': kinematics does not know a rod", closure.name),
+                    "give a link between two spherical joints, one of them the closure");
+  }
+  throw_if_any(diagnostics);
+}
+
 }  // namespace
 
 StaticsAnalysis analyse_statics(ModelInput input) {
@@ -78,6 +90,7 @@ StaticsAnalysis analyse_statics(ModelInput input) {
 }
 
 KinematicsAnalysis analyse_course(ModelInput input, const CourseRequest& request) {
+  refuse_rods(input);
   const auto begin = Clock::now();
   KinematicsAnalysis analysis;
   analysis.closed = std::make_unique<const Model>(compile_closed(input.rigid));
