@@ -107,7 +107,7 @@ inline void update_applied_forces(const Mechanism& m, const Parameters<Real>& p,
                                   const Real* q, const Real* v, Workspace<Real>& w) {
   for (const int k : velocities(m)) at(w.tau, k) = Real(0.0);
   w.supplied_power = Real(0.0);
-  w.dissipated_power = Real(0.0);
+  w.dissipated_power = w.contact_power = Real(0.0);
   add_loads(m, p, t, q, v, w);
   add_joint_springs(m, p, q, v, w);
   add_sdes(m, p, w);

@@ -91,8 +91,9 @@ template <class Real>
   s.friction = contact_friction(structure, contact, n, acts, s, w);
   if (!any(acts)) return;
   add_contact_wrench(structure, k, j.a, s, x);
-  w.dissipated_power =
-      w.dissipated_power + madd(s.friction, s.speed, (s.normal - s.elastic) * s.rate);
+  const Real power = madd(s.friction, s.speed, (s.normal - s.elastic) * s.rate);
+  w.dissipated_power = w.dissipated_power + power;
+  w.contact_power = w.contact_power + power;
 }
 
 template <class Real>

@@ -43,6 +43,7 @@ inline void add_stop(const StopStructure& s, const StopParameters<Real>& n, cons
   x.elastic = select(acts, f.elastic, Real(0.0));
   at(w.tau, s.v) = at(w.tau, s.v) - towards_stop(s, x.normal);
   w.dissipated_power = madd(x.normal - x.elastic, x.rate, w.dissipated_power);
+  w.contact_power = madd(x.normal - x.elastic, x.rate, w.contact_power);
 }
 
 template <class Real>

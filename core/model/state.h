@@ -15,6 +15,7 @@ struct State {
   std::vector<Real> z;          // (nz) deflections of bristles, m
   Real supplied = Real(0.0);    // work of drives since the start, J
   Real dissipated = Real(0.0);  // work against resistance and damping since the start, J
+  Real dissipated_in_contacts = Real(0.0);  // of it
 };
 
 template <class Real>

@@ -167,6 +167,7 @@ struct Workspace {
   std::vector<Real> efforts;          // (motions) that they take, N or N m
   Real supplied_power = Real(0.0);    // W
   Real dissipated_power = Real(0.0);  // W
+  Real contact_power = Real(0.0);     // of it, in contacts
   // Lanes, one bit each, whose cut rows depend on each other or nearly, so that `schur` holds no
   // factor of theirs; and the number of independent rows, in each lane its own.
   unsigned redundant = 0;

@@ -25,7 +25,8 @@ using Slopes = std::function<void(double t, const double* y, double* dy)>;
 struct AdaptiveProblem {
   Slopes slopes;
   double relative = 1e-8;
-  std::vector<double> absolute;  // (size) > 0, in the unit of each unknown
+  std::vector<double> absolute;  // (size) > 0, in the unit of each; infinite (of the last, passive
+                                 // ones): errors do not count
   int passive = 0;               // trailing unknowns that f does not depend on
   double max_step = 0.0;         // 0: none
   int size() const { return static_cast<int>(absolute.size()); }

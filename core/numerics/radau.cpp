@@ -88,14 +88,16 @@ class Radau final : public AdaptiveIntegrator {
  public:
   explicit Radau(AdaptiveProblem p)
       : AdaptiveIntegrator(std::move(p)),
-        n_(problem().size()),
+        n_(static_cast<int>(
+            std::ranges::count_if(problem().absolute, [](double x) { return std::isfinite(x); }))),
+        integrals_(problem().size() - n_),
         jacobian_(typical_sizes(problem()), problem().passive),
         counted_([this](double t, const double* y, double* dy) { evaluate(t, y, dy); }),
         matrix_(n_, n_),
         shifted_(n_, n_),
         shifted_complex_(n_, n_),
         scale_(n_),
-        slope_(n_),
+        slope_(n_ + integrals_),
         state_(n_),
         error_(n_),
         pair_(n_),
@@ -108,7 +110,11 @@ class Radau final : public AdaptiveIntegrator {
         polynomial_(n_, 3),
         of_stages_(n_),
         before_(n_),
-        old_(n_) {
+        old_(n_ + integrals_),
+        whole_(n_ + integrals_),
+        whole_slope_(n_ + integrals_),
+        integrand_(integrals_, 3),
+        integral_(integrals_, 3) {
     const double relative = problem().relative;
     newton_limit_ = std::max(10.0 * std::numeric_limits<double>::epsilon() / relative,
                              std::min(0.03, std::sqrt(relative)));
@@ -139,6 +145,14 @@ class Radau final : public AdaptiveIntegrator {
   }
 
   Eigen::Map<const VectorXd> begin() const { return {y(), n_}; }
+  Eigen::Map<const VectorXd> begin_of_integrals() const { return {y() + n_, integrals_}; }
+
+  // Slopes at `state_`, in whole_slope_.
+  void evaluate_whole(double time) {
+    whole_.head(n_) = state_;
+    whole_.tail(integrals_) = begin_of_integrals();
+    evaluate(time, whole_.data(), whole_slope_.data());
+  }
 
   void linearize(double h) {
     jacobian_.update(counted_, t(), y(), h);
@@ -182,7 +196,9 @@ class Radau final : public AdaptiveIntegrator {
   void evaluate_stages(double h) {
     for (int i = 0; i < 3; ++i) {
       state_ = begin() + z_.col(i);
-      evaluate(t() + coefficients().c[i] * h, state_.data(), f_.col(i).data());
+      evaluate_whole(t() + coefficients().c[i] * h);
+      f_.col(i) = whole_slope_.head(n_);
+      integrand_.col(i) = whole_slope_.tail(integrals_);
     }
   }
 
@@ -199,6 +215,18 @@ class Radau final : public AdaptiveIntegrator {
     solved_ = complex_.solve(pair_);
     change_.col(1) = solved_.real();
     change_.col(2) = solved_.imag();
+  }
+
+  // Of what nothing depends on, from the slopes at the stages: no equation is left.
+  void integrate(double h) {
+    const Coefficients& k = coefficients();
+    Stages w = integrand_ * k.basis_inverse.transpose();
+    for (int i = 0; i < integrals_; ++i) {
+      const std::complex<double> pair =
+          h * std::complex<double>(w(i, 1), w(i, 2)) / std::complex<double>(k.alpha, -k.beta);
+      w.row(i) << h / k.gamma * w(i, 0), pair.real(), pair.imag();
+    }
+    integral_ = w * k.basis.transpose();
   }
 
   Newton iterate(double h) {
@@ -238,12 +266,13 @@ class Radau final : public AdaptiveIntegrator {
   double estimate_error(double h) {
     const Coefficients& k = coefficients();
     of_stages_.noalias() = z_ * (k.embedded.transpose() * (k.gamma / h));
-    state_ = slope_ + of_stages_;
+    state_ = slope_.head(n_) + of_stages_;
     error_ = real_.solve(state_);
     double size = error_norm();
     if (size >= 1.0 && (rejected_last_ || !has_history_)) {
       state_ = begin() + error_;
-      evaluate(t(), state_.data(), before_.data());
+      evaluate_whole(t());
+      before_ = whole_slope_.head(n_);
       before_ += of_stages_;
       error_ = real_.solve(before_);
       size = error_norm();
@@ -271,7 +300,9 @@ class Radau final : public AdaptiveIntegrator {
     scale_ = Eigen::Map<const VectorXd>(problem().absolute.data(), n_) +
              problem().relative * begin().cwiseAbs();
     const Newton result = solve(h);
+    integrate(h);
     Eigen::Map<VectorXd>(end.data(), n_) = begin() + z_.col(2);
+    Eigen::Map<VectorXd>(end.data() + n_, integrals_) = begin_of_integrals() + integral_.col(2);
     if (result != Newton::converged) {
       if (result == Newton::not_finite) end[0] = std::numeric_limits<double>::quiet_NaN();
       rejected_last_ = true;
@@ -310,7 +341,9 @@ class Radau final : public AdaptiveIntegrator {
 
   void accept(double h, double error) {
     polynomial_.noalias() = z_ * coefficients().powers.transpose();
-    old_ = begin();
+    integral_ = (integral_ * coefficients().powers.transpose()).eval();
+    old_.head(n_) = begin();
+    old_.tail(integrals_) = begin_of_integrals();
     length_ = h;
     has_polynomial_ = has_history_ = true;
     accepted_length_ = h;
@@ -322,10 +355,13 @@ class Radau final : public AdaptiveIntegrator {
 
   void interpolate(double time, double* out) override {
     const double s = (time - t_old()) / length_;
-    Eigen::Map<VectorXd>(out, n_) = old_ + polynomial_ * Vector3d(s, s * s, s * s * s);
+    const Vector3d powers(s, s * s, s * s * s);
+    Eigen::Map<VectorXd>(out, n_) = old_.head(n_) + polynomial_ * powers;
+    Eigen::Map<VectorXd>(out + n_, integrals_) = old_.tail(integrals_) + integral_ * powers;
   }
 
-  int n_;
+  int n_;          // unknowns whose errors count
+  int integrals_;  // the others: the last, on which nothing depends
   DifferenceJacobian jacobian_;
   Slopes counted_;
   MatrixXd matrix_, shifted_;
@@ -337,8 +373,11 @@ class Radau final : public AdaptiveIntegrator {
   Stages z_, w_, f_, residual_, change_;
   Stages polynomial_;  // of the last step
   VectorXd of_stages_, before_, old_;
-  double length_ = 0.0;    // of the last step
-  double factored_ = 0.0;  // step of the factors; 0: none
+  VectorXd whole_, whole_slope_;  // integrals with them
+  Stages integrand_;              // slopes of integrals at the stages
+  Stages integral_;               // at the stages, then as polynomial_
+  double length_ = 0.0;           // of the last step
+  double factored_ = 0.0;         // step of the factors; 0: none
   double newton_limit_ = 0.0;
   double rate_ = 0.0, last_quotient_ = 0.0;
   double left_ = 1.0;  // rate / (1 - rate) of the last step

@@ -22,7 +22,8 @@ enum class Cause : std::uint8_t {
   rank_lost,
   invalid_point,
   step_too_coarse,
-  course_blocked  // of kinematics: the drives cannot go as asked
+  course_blocked,  // of kinematics: the drives cannot go as asked
+  no_full_turn     // of a cycle that is to be looked at
 };
 
 template <>
@@ -41,6 +42,7 @@ inline constexpr auto kWords<Cause> =
                        {Cause::rank_lost, "rank_lost"},
                        {Cause::invalid_point, "invalid_point"},
                        {Cause::step_too_coarse, "step_too_coarse"},
-                       {Cause::course_blocked, "course_blocked"}});
+                       {Cause::course_blocked, "course_blocked"},
+                       {Cause::no_full_turn, "no_full_turn"}});
 
 }  // namespace linkstudy

@@ -97,13 +97,16 @@ constexpr std::array kKinds = {
     ChannelKind{Quantity::residual, "energy", "residual", "", "J", "",
                 "kinetic + potential - supplied + dissipated, less its value at the start: the "
                 "error of the integration"},
+    ChannelKind{Quantity::dissipated_in_contacts, "energy", "dissipated_in_contacts", "", "J",
+                "linkages with clearances or end stops",
+                "what of energy.dissipated contacts take, their friction included"},
 };
 
 constexpr bool in_order() {
   for (std::size_t i = 0; i < kKinds.size(); ++i) {
     if (kKinds[i].quantity != static_cast<Quantity>(i)) return false;
   }
-  return kKinds.size() == static_cast<std::size_t>(Quantity::residual) + 1;
+  return kKinds.size() == static_cast<std::size_t>(Quantity::dissipated_in_contacts) + 1;
 }
 static_assert(in_order());
 

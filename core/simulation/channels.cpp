@@ -5,7 +5,6 @@
 #include "core/simulation/channel_kinds.h"
 
 namespace linkstudy {
-namespace {
 
 bool is_rotation(const Mechanism& m, int v) {
   for (const Stage& s : m.stages) {
@@ -14,6 +13,8 @@ bool is_rotation(const Mechanism& m, int v) {
   }
   return false;
 }
+
+namespace {
 
 class Lister {
  public:
@@ -35,7 +36,8 @@ class Lister {
     for (std::size_t i = 0; i < m_.spring_names.size(); ++i) add_spring(i);
     for (std::size_t i = 0; i < m_.point_bodies.size(); ++i) add_point(i);
     for (const ChannelKind& kind : channel_kinds()) {
-      if (kind.owner == "energy") add("energy", kind.quantity, 0);
+      const bool has_it = kind.quantity != Quantity::dissipated_in_contacts || !m_.contacts.empty();
+      if (kind.owner == "energy" && has_it) add("energy", kind.quantity, 0);
     }
     return std::move(channels_);
   }

@@ -43,7 +43,8 @@ enum class Quantity : std::uint8_t {
   potential,
   supplied,
   dissipated,
-  residual
+  residual,
+  dissipated_in_contacts
 };
 
 struct Channel {
@@ -56,6 +57,9 @@ struct Channel {
   int component = 0;  // 0 1 2 for x y z
   int body = 0;       // that carries a point
 };
+
+// Whether a velocity is that of a turn.
+bool is_rotation(const Mechanism& mechanism, int v);
 
 // All channels of a mechanism in a fixed order, time first.
 std::vector<Channel> list_channels(const Mechanism& mechanism);

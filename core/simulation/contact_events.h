@@ -9,12 +9,9 @@
 #include <optional>
 #include <vector>
 
-namespace linkstudy {
+#include "core/simulation/nearness.h"
 
-struct Nearness {
-  double depth;  // of penetration, negative: gap left, m
-  double rate;   // m/s
-};
+namespace linkstudy {
 
 struct ContactPhase {
   bool touching = false;

@@ -24,7 +24,7 @@ class Instant {
         reactions_(make_reactions<Real>(m)),
         shared_(make_shared_reactions<Real>(m)) {}
 
-  // y: q (nq), v (nv), z (nz), supplied, dissipated; w must hold the evaluation at (t, y).
+  // y: core/simulation/run_state.h; w must hold the evaluation at (t, y).
   void move_to(Real t, const Real* y) {
     t_ = t;
     y_ = y;
@@ -100,6 +100,7 @@ class Instant {
   }
   Real supplied() const { return y_[m_.nq + m_.nv + m_.nz]; }
   Real dissipated() const { return y_[m_.nq + m_.nv + m_.nz + 1]; }
+  Real dissipated_in_contacts() const { return y_[m_.nq + m_.nv + m_.nz + 2]; }
   Real residual() {
     const Energy<Real> e = energy();
     return e.kinetic + e.potential() - initial_energy_ - supplied() + dissipated();
@@ -179,6 +180,8 @@ class Instant {
         return supplied();
       case Quantity::dissipated:
         return dissipated();
+      case Quantity::dissipated_in_contacts:
+        return dissipated_in_contacts();
       default:
         return residual();
     }

@@ -12,6 +12,19 @@
 
 namespace linkstudy {
 
+class ContactRecorder;
+
+// One contact at an accepted state and the one before it.
+struct ContactStep {
+  int contact;
+  double t0, t1;  // s
+  double depth0, rate0, depth1, rate1;
+  double approach;        // its speed of approach, m/s or rad/s
+  bool touched, touches;  // before, now
+};
+// Compiled once, for all instruction sets.
+void record_contact(ContactRecorder& recorder, const ContactStep& step);
+
 // How the run of one lane ended.
 struct LaneEnd {
   Cause cause = Cause::ok;
@@ -30,12 +43,13 @@ struct LaneEnd {
 
 struct LaneCase {
   const Parameters<double>* parameters;
-  const double* y;       // start: q (nq), v (nv), z (nz), supplied, dissipated
+  const double* y;       // start (core/simulation/run_state.h)
   double* final_y;       // the same at the end
   Observers* observers;  // sized; of the same form in all lanes
   std::size_t* samples;  // (series) rows written
   LaneEnd* end;
-  double* looks = nullptr;  // rows of core/simulation/looks.h, or none
+  double* looks = nullptr;              // rows of core/simulation/looks.h, or none
+  ContactRecorder* contacts = nullptr;  // or none
 };
 
 // Numbers that a slot of a frame has for a kernel of so many lanes: the fewest that code does.

@@ -72,6 +72,8 @@ class LaneObservers {
     Real sum = Real(0.0);
     Real square = Real(0.0);
     Real last = Real(0.0);
+    Real min_step = Real(0.0), max_step = Real(0.0);
+    Real min_place = Real(0.0), max_place = Real(0.0);
   };
 
   template <class Of>
@@ -95,6 +97,15 @@ class LaneObservers {
   static void reduce(const ChannelReduction& form, LaneReduction& s, long step, Of&& of) {
     if (!form.sampling.hits(step)) return;
     const Real x = of(0, form.channel);
+    const auto lower = x<s.min, higher = x> s.max;
+    const Real now(static_cast<double>(step));
+    s.min_step = select(lower, now, s.min_step);
+    s.max_step = select(higher, now, s.max_step);
+    if (!form.place.empty()) {
+      const Real there = of(1, form.place[0]);
+      s.min_place = select(lower, there, s.min_place);
+      s.max_place = select(higher, there, s.max_place);
+    }
     s.min = min(s.min, x);
     s.max = max(s.max, x);
     const Real weighted = Real(time_weight(form.sampling, form.ends, step)) * x;
@@ -134,6 +145,10 @@ class LaneObservers {
     out.sum = lane(s.sum, i);
     out.square = lane(s.square, i);
     out.last = lane(s.last, i);
+    out.min_step = static_cast<long>(lane(s.min_step, i));
+    out.max_step = static_cast<long>(lane(s.max_step, i));
+    out.min_place = lane(s.min_place, i);
+    out.max_place = lane(s.max_place, i);
   }
 
   const LaneCase* cases_;

@@ -6,6 +6,7 @@
 
 #include "core/numerics/adaptive_integrator.h"
 #include "core/simulation/contact_events.h"
+#include "core/simulation/contact_list.h"
 #include "core/simulation/course_corners.h"
 #include "core/simulation/run.h"
 
@@ -56,7 +57,9 @@ class LocatedRun {
         phases_(m.contacts.size()),
         touches_(m.contacts.size()),
         begin_(m.contacts.size()),
-        end_(m.contacts.size()) {}
+        end_(m.contacts.size()),
+        before_(m.contacts.size()),
+        after_(m.contacts.size()) {}
 
   LocatedReport run() {
     const FlushDenormals flush;
@@ -71,7 +74,9 @@ class LocatedRun {
     p.slopes = [this](double t, const double* y, double* dy) { differentiate(t, y, dy); };
     p.relative = options_.relative_tolerance;
     p.absolute.assign(size_, options_.absolute_tolerance);
-    p.passive = kPowers;
+    p.passive = work_count(m_);
+    // It is told apart without a say in the steps.
+    if (!m_.contacts.empty()) p.absolute.back() = kOpen;
     return p;
   }
 
@@ -139,7 +144,9 @@ class LocatedRun {
     for (std::size_t i = 0; i < phases_.size(); ++i) {
       phases_[i] = {begin_[i].depth > 0.0, begin_[i].depth == 0.0};
       set_memory(i, begin_[i].rate);
-      if (phases_[i].touching) log_.begun += 1.0;
+      if (!phases_[i].touching) continue;
+      log_.begun += 1.0;
+      if (case_.contacts != nullptr) case_.contacts->start_inside(static_cast<int>(i));
     }
     time_ = setting_.t0;
     observe_grid(0, y_.data());
@@ -161,6 +168,7 @@ class LocatedRun {
     const double reached = event ? event->t : integrator_->t();
     observe_until(reached);
     if (cause_) return;
+    follow_contacts(reached);
     count_step();
     if (event) {
       restart_at(*event);
@@ -213,6 +221,27 @@ class LocatedRun {
     if (!cause_)
       observers_.observe(step,
                          [this](int, std::size_t, const Channel& c) { return now_.sample(c); });
+  }
+
+  // By quarters of the step: a cubic each.
+  void follow_contacts(double reached) {
+    const bool touches = std::any_of(phases_.begin(), phases_.end(),
+                                     [](const ContactPhase& phase) { return phase.touching; });
+    if (case_.contacts == nullptr || !touches) return;
+    before_ = begin_;
+    double t = integrator_->t_old();
+    const double quarter = 0.25 * (reached - t);
+    for (int part = 1; part <= 4; ++part) {
+      const double next = part == 4 ? reached : integrator_->t_old() + part * quarter;
+      look_inside(next, after_.data());
+      for (std::size_t i = 0; i < phases_.size(); ++i) {
+        if (!phases_[i].touching) continue;
+        case_.contacts->follow(static_cast<int>(i), {t, next, before_[i], after_[i]},
+                               w_.memory[i].approach);
+      }
+      before_.swap(after_);
+      t = next;
+    }
   }
 
   void count_step() {
@@ -268,11 +297,15 @@ class LocatedRun {
   void begin_contact(std::size_t i) {
     log_.begun += 1.0;
     touches_[i].steps = 0.0;
+    ContactRecorder* recorder = case_.contacts;
+    if (recorder != nullptr) recorder->begin(static_cast<int>(i), time_, begin_[i].rate);
     if (++begun_in_interval_ > kMostContacts) fail(Cause::contact_budget);
   }
 
   void end_contact(std::size_t i) {
     log_.least_steps = std::min(log_.least_steps, touches_[i].steps);
+    ContactRecorder* recorder = case_.contacts;
+    if (recorder != nullptr) recorder->end(static_cast<int>(i), time_, -begin_[i].rate);
     const ContactStructure& contact = m_.contacts[i];
     const bool resets =
         contact.z >= 0 && at(m_.clearances, contact.clearance).free_bristle == FreeBristle::reset;
@@ -335,7 +368,8 @@ class LocatedRun {
   ContactEvents events_;
   std::vector<ContactPhase> phases_;
   std::vector<Touch> touches_;
-  std::vector<Nearness> begin_, end_;  // of the step
+  std::vector<Nearness> begin_, end_;     // of the step
+  std::vector<Nearness> before_, after_;  // of a part of it
   std::optional<Cause> cause_;
   long step_ = 0;  // of the grid
   long since_poll_ = 0, observed_ = 0, looks_ = 0;

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "core/simulation/channels.h"
+#include "core/simulation/contact_record.h"
 
 namespace linkstudy {
 
@@ -68,7 +69,8 @@ struct Comparison {
   double max_vector_error = 0.0;
 };
 
-// Extremes and moments of one channel over a window.
+// Extremes and moments of one channel over a window, and where its extremes are first reached:
+// steps, and values of another channel there.
 struct ChannelReduction {
   Channel channel;
   Sampling sampling;
@@ -79,12 +81,16 @@ struct ChannelReduction {
   double sum = 0.0;     // weighted
   double square = 0.0;  // weighted
   double last = 0.0;
+  std::vector<Channel> place = {};  // that other channel, or none
+  long min_step = 0, max_step = 0;
+  double min_place = 0.0, max_place = 0.0;
 };
 
 struct Observers {
   std::vector<Series> series;
   std::vector<Comparison> comparisons;
   std::vector<ChannelReduction> reductions;
+  ContactList contacts;
 };
 
 }  // namespace linkstudy

@@ -30,7 +30,11 @@ void PackCode::list_observed(const Mechanism& m, const Observers& form) {
     }
   };
   for (const auto& s : form.comparisons) add(s.sampling, s.channels);
-  for (const auto& s : form.reductions) add(s.sampling, {&s.channel, 1});
+  for (const auto& s : form.reductions) {
+    std::vector<Channel> channels = {s.channel};
+    channels.insert(channels.end(), s.place.begin(), s.place.end());
+    add(s.sampling, channels);
+  }
   for (const auto& s : form.series) add(s.sampling, s.channels);
 }
 

@@ -61,6 +61,7 @@ class Run {
       if (step_ % setting_.energy_stride == 0) check_energy();
       if (active_ == 0) return;
       watch_.see(step_, t, y_.data(), w_, active_);
+      record_contacts(t);
       observers_.observe(
           step_, [this](int, std::size_t, const Channel& channel) { return now_.sample(channel); });
       if (step_ == setting_.count) break;
@@ -114,12 +115,38 @@ class Run {
     written_.write_kept(w_);
     checks_.see_rank(Real(1.0) > Real(0.0), Real(static_cast<double>(m_.cut_row_count())));
     watch_.see(step_, t, y_.data(), w_, active_);
+    record_contacts(t);
     observers_.observe(step_, [this](int observer, std::size_t i, const Channel&) {
       return written_.observed(observer, i);
     });
     if (step_ % kStepsBetweenPolls == 0 && interrupted(t)) return true;
     take_next();
     return true;
+  }
+
+  // Of an accepted state; what contacts remember is still that of the state before.
+  void record_contacts(double t) {
+    if (cases_[0].contacts == nullptr) return;
+    for (const int i : indices_of(m_.contacts)) {
+      const ContactMemory<Real>& memory = at(w_.memory, i);
+      const unsigned touches = lane_bits(at(w_.contacts, i).depth > memory.least_depth);
+      const unsigned touched = lane_bits(memory.touching > Real(0.5));
+      if (((touches | touched) & active_) != 0) record_contact_of(i, t, touches, touched);
+    }
+  }
+
+  [[gnu::noinline]] void record_contact_of(int contact, double t, unsigned touches,
+                                           unsigned touched) {
+    const ContactMemory<Real>& before = at(w_.memory, contact);
+    const ContactState<Real>& now = at(w_.contacts, contact);
+    for (int i = 0; i < count_; ++i) {
+      if (((touches | touched) & active_) >> i & 1u) {
+        record_contact(*cases_[i].contacts,
+                       {contact, step_ > 0 ? t - setting_.h : t, t, lane(before.depth, i),
+                        lane(before.rate, i), lane(now.depth, i), lane(now.rate, i),
+                        lane(now.approach, i), (touched >> i & 1u) != 0, (touches >> i & 1u) != 0});
+      }
+    }
   }
 
   // The same after the general evaluation of this state, which has been looked at.

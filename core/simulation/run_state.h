@@ -1,5 +1,6 @@
 // The state of a run as one row of numbers,
-//   y = q (nq), v (nv), z (nz), supplied, dissipated
+//   y = q (nq), v (nv), z (nz), supplied, dissipated, and of linkages with contacts what of it is
+//       dissipated there
 // with its slopes, and its return to unit quaternions, closed joints and the laws of driven
 // coordinates after a step. This is what
 // runs of constant steps (run.h) and of adaptive ones (located_run.h) share of the motion.
@@ -10,11 +11,17 @@
 
 namespace linkstudy {
 
-// Supplied, dissipated (J): nothing depends on them.
-inline constexpr int kPowers = 2;
+// Works, J: nothing depends on them.
+[[gnu::always_inline]] inline int work_count(const Mechanism& m) {
+  return m.contact_count() > 0 ? 3 : 2;
+}
+
+[[gnu::always_inline]] inline int first_work(const Mechanism& m) {
+  return m.nq + m.nv + m.nz;
+}
 
 [[gnu::always_inline]] inline int state_size(const Mechanism& m) {
-  return m.nq + m.nv + m.nz + kPowers;
+  return first_work(m) + work_count(m);
 }
 
 // The equations of motion at (t, y).
@@ -39,6 +46,7 @@ inline void write_slopes(const Mechanism& m, const Real* y, const Workspace<Real
   for (const int i : indices(m.nz)) rest[m.nv + i] = at(w.z_rate, i);
   rest[m.nv + m.nz] = w.supplied_power;
   rest[m.nv + m.nz + 1] = w.dissipated_power;
+  if (m.contact_count() > 0) rest[m.nv + m.nz + 2] = w.contact_power;
 }
 
 // The state at t. Leaves in w what the projection has found; correction (nv) is scratch.

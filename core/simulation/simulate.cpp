@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <deque>
 #include <limits>
 
 #include "core/kinematics/three_turns.h"
+#include "core/simulation/contact_list.h"
 #include "core/simulation/kernels.h"
 #include "core/simulation/located_run.h"
 #include "core/simulation/looks.h"
@@ -122,12 +124,19 @@ class Packed {
     auto& y = starts_.emplace_back(c.start->q);
     y.insert(y.end(), c.start->v.begin(), c.start->v.end());
     y.insert(y.end(), c.start->z.begin(), c.start->z.end());
-    y.resize(static_cast<std::size_t>(m_.nq + m_.nv + m_.nz));
-    y.push_back(c.start->supplied);
-    y.push_back(c.start->dissipated);
+    y.resize(static_cast<std::size_t>(first_work(m_)));
+    y.insert(y.end(), {c.start->supplied, c.start->dissipated});
+    if (!m_.contacts.empty()) y.push_back(c.start->dissipated_in_contacts);
     auto& final_y = finals_.emplace_back(y.size());
     lanes_.push_back({c.parameters, y.data(), final_y.data(), c.observers, samples_[i].data(),
-                      &ends_[i], looks_[i].data()});
+                      &ends_[i], looks_[i].data(), add_recorder(c)});
+  }
+
+  ContactRecorder* add_recorder(const BatchCase& c) {
+    ContactList& list = c.observers->contacts;
+    list = {list.most, {}, 0, {}};
+    if (list.most == 0 || m_.contacts.empty()) return nullptr;
+    return &recorders_.emplace_back(m_, *c.parameters, list);
   }
 
   // What the limit along the run makes of its end.
@@ -173,8 +182,10 @@ class Packed {
     const auto v = y.begin() + m_.nq;
     o.final_state.v.assign(v, v + m_.nv);
     o.final_state.z.assign(v + m_.nv, v + m_.nv + m_.nz);
-    o.final_state.supplied = y[y.size() - 2];
-    o.final_state.dissipated = y[y.size() - 1];
+    const auto works = v + m_.nv + m_.nz;
+    o.final_state.supplied = works[0];
+    o.final_state.dissipated = works[1];
+    if (!m_.contacts.empty()) o.final_state.dissipated_in_contacts = works[2];
     o.message += angles_note(o);
     for (std::size_t k = 0; k < samples_[i].size(); ++k) {
       auto& s = cases_[i].observers->series[k];
@@ -199,6 +210,7 @@ class Packed {
   std::vector<std::vector<double>> looks_;
   std::vector<std::vector<double>> starts_;
   std::vector<std::vector<double>> finals_;
+  std::deque<ContactRecorder> recorders_;
   std::vector<LaneCase> lanes_;
 };
 

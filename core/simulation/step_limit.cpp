@@ -42,7 +42,7 @@ StepLimit find_step_limit(const Mechanism& m, const Parameters<double>& p,
     s.q = take(row, m.nq);
     s.v = take(row, m.nv);
     s.z = take(row, m.nz);
-    row += kPowers;
+    row += work_count(m);
     const std::vector<double> approach = take(row, static_cast<int>(m.contacts.size()));
     worst = worse(worst, compute_spectrum(model, s, approach), s.t);
   }

@@ -9,6 +9,7 @@
 #include "study/cli/verb_table.h"
 #include "study/config/started_model.h"
 #include "study/report/console.h"
+#include "study/report/contacts_report.h"
 #include "study/report/model_report.h"
 #include "study/report/series_table.h"
 #include "study/report/write_table.h"
@@ -45,6 +46,7 @@ int run_simulate(const CommandLine& line) {
   const ModelInput input = read_model_input(line);
   const auto begin = Clock::now();
   Observers observers;
+  observers.contacts.most = 1;  // the hardest is kept beside them
   if (line.csv) observers.series.push_back(choose_series(input, line.signals));
   remove_old(line.csv);
   const Preparation preparation = prepare(input.linkage, input.options);
@@ -66,7 +68,9 @@ int run_simulate(const CommandLine& line) {
   if (!outcome.warning.empty()) {
     print_err(fmt::format("linkstudy: warning: {}\n", outcome.warning));
   }
-  print_text(line, outcome_text(outcome, input.options, wall_s));
+  const std::string hardest =
+      hardest_contact_text(preparation.model.mechanism, observers.contacts);
+  print_text(line, outcome_text(outcome, input.options, hardest, wall_s));
   if (line.json) print_out(outcome_json(preparation, &outcome, wall_s) + "\n");
   return outcome.cause == Cause::ok ? kDone : kTooManyFailed;
 }

@@ -8,13 +8,14 @@ namespace linkstudy {
 
 // Of a record with a member `window`.
 template <class Record>
-void add_window(Fields<Record>& record, const char* meaning) {
+void add_window(Fields<Record>& record, const char* meaning, const char* group = "") {
   record.read("window",
               {.type = KeyType::numbers,
                .meaning = meaning,
                .unit = "s",
                .range = kNotNegative,
-               .counts = {2}},
+               .counts = {2},
+               .group = group},
               [](Record& to, Tree& value, const Reading& reading) {
                 to.window = read_window(value, reading);
               });

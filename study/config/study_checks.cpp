@@ -72,6 +72,27 @@ void read_reference_signal(MatchInput& match, Tree& value, const Reading& readin
                           "write the channel after the sign");
 }
 
+void read_place(ResponseInput& response, Tree& value, const Reading& reading) {
+  if (value.is(Kind::text) && !value.text.empty()) {
+    response.where = PlaceInput{value.text, value.at};
+  } else if (value.is(Kind::boolean)) {
+    if (value.boolean) response.where = PlaceInput{"", value.at};
+  } else {
+    reading.report(value, fmt::format("where must be true or a channel, got {}", shown(value)),
+                   "for example where = \"joint.crank.q\"");
+  }
+}
+
+void check_place(const ResponseInput& response, Tree&, const Reading& reading) {
+  const bool is_extreme = response.reduce == Reduction::max || response.reduce == Reduction::min ||
+                          response.reduce == Reduction::max_abs;
+  if (!response.where || is_extreme) return;
+  reading.diagnostics.add(
+      response.where->at,
+      fmt::format("reduce = \"{}\" is reached nowhere in particular", name_of(response.reduce)),
+      "take `where` out, or reduce = \"max\", \"min\" or \"max_abs\"");
+}
+
 void read_trace(StudyInput& study, Tree& value, const Reading& reading) {
   if (value.items.empty()) {
     reading.diagnostics.add(value.at, "signals must not be empty, got []", "name a channel");

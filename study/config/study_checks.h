@@ -11,6 +11,12 @@ std::optional<TimeWindow> read_window(Tree& value, const Reading& reading);
 // "-closure.S.force": a channel and its sign.
 void read_reference_signal(MatchInput& match, Tree& value, const Reading& reading);
 
+// Where an extreme is wanted: true, false, or a channel.
+void read_place(ResponseInput& response, Tree& value, const Reading& reading);
+
+// Extremes alone are reached somewhere.
+void check_place(const ResponseInput& response, Tree& table, const Reading& reading);
+
 // One entry of the study's list for each signal of a [[trace]].
 void read_trace(StudyInput& study, Tree& value, const Reading& reading);
 

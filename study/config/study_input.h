@@ -64,6 +64,19 @@ struct RefineInput {
   std::optional<double> formal_order;
 };
 
+// The last full turns of a joint, up to the end of the run (study/metrics/cycle.h).
+struct CycleInput {
+  std::string of;  // channel of its angle
+  long turns = 1;
+  Location at;  // of `of`
+};
+
+// Where an extreme is reached: when, and what another channel has there.
+struct PlaceInput {
+  std::string channel;  // empty: the instant alone
+  Location at;
+};
+
 struct MatchInput {
   std::string signal;
   std::string reference_signal;  // without sign
@@ -72,6 +85,7 @@ struct MatchInput {
   ErrorScale scale = ErrorScale::component;
   std::vector<double> tolerance;     // of a tune one for each answer that is wanted
   std::optional<TimeWindow> window;  // none: the whole run
+  std::optional<CycleInput> cycle;   // of the reference run, in place of a window
   double floor = 0.05;
   Location at;            // of signal
   Location reference_at;  // of reference_signal
@@ -82,6 +96,8 @@ struct ResponseInput {
   std::string signal;
   Reduction reduce = Reduction::max;
   std::optional<TimeWindow> window;
+  std::optional<CycleInput> cycle;  // in place of a window
+  std::optional<PlaceInput> where;
   Location at;       // of signal
   Location name_at;  // of name
 };

@@ -54,6 +54,19 @@ void add_parameter(Fields<Record>& entry) {
               .required = true});
 }
 
+// Of a record with members `window` and `cycle`.
+template <class Record>
+void add_window_or_cycle(Fields<Record>& record, const char* of_what) {
+  add_window(record, kWholeRun, "window");
+  Fields<CycleInput> cycle;
+  cycle.add("of", &CycleInput::of,
+            {.meaning = "channel of the joint's angle, such as joint.crank.q", .required = true},
+            [](CycleInput& to, Tree& value, const Reading&) { to.at = value.at; });
+  cycle.add("turns", &CycleInput::turns,
+            {.meaning = "how many full turns", .range = {.low = 1, .high = 1.0e6}});
+  record.table("cycle", &Record::cycle, {.meaning = of_what, .group = "window"}, std::move(cycle));
+}
+
 Fields<MatchInput> match_fields(FileKind kind) {
   Fields<MatchInput> match;
   add_signal(match, "channel, such as closure.S.force; every component counts");
@@ -81,7 +94,9 @@ Fields<MatchInput> match_fields(FileKind kind) {
   }
   match.read("tolerance", std::move(tolerance),
              [](MatchInput& to, Tree& value, const Reading&) { fill_member(to.tolerance, value); });
-  add_window(match, kWholeRun);
+  add_window_or_cycle(match,
+                      "the last full turns of a joint of the reference run, in place of a "
+                      "window: the same instants of both runs");
   match.add("floor", &MatchInput::floor,
             {.meaning = "a component whose reference stays under this fraction of the vector's is "
                         "nearly zero and is scaled by that",
@@ -97,7 +112,16 @@ Fields<ResponseInput> response_fields() {
   add_signal(response, "channel or vector (linkstudy describe channels)");
   response.add("reduce", &ResponseInput::reduce,
                {.meaning = "what is kept of its course", .required = true});
-  add_window(response, kWholeRun);
+  add_window_or_cycle(response,
+                      "the last full turns of a joint, up to the end of the run, in place of a "
+                      "window; a run without them fails (no_full_turn)");
+  response.read(
+      "where",
+      {.type = scalar,
+       .meaning = "of max, min and max_abs: true keeps when they are reached (NAME_at), a "
+                  "channel also what it has there (NAME_where)"},
+      read_place);
+  response.finish(check_place);
   return response;
 }
 

@@ -108,7 +108,7 @@ class Judging {
         quantity.reference = reference_of(load_case, quantity.name.substr(prefix.size()));
         quantities_.push_back(std::move(quantity));
       }
-      at += count;
+      at += count * numbers_of_each(input_.response[r]);
     }
   }
 

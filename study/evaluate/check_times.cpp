@@ -126,6 +126,13 @@ class TimesCheck {
     if (!check_end(match.window, std::min(own.end_time, reference.end_time), at)) return;
     const std::optional<CommonGrid> common = find_common_grid(own.grid.h, reference.grid.h);
     if (!common) return report_grids(match, own, reference);
+    if (match.cycle && own.end_time < reference.end_time * (1.0 - 1e-9)) {
+      return report(match.cycle->at,
+                    fmt::format("the last turns of the reference end with it, at {:.9g} s, after "
+                                "the run ({:.9g} s)",
+                                reference.end_time, own.end_time),
+                    "give both runs the same simulation.end_time");
+    }
     const Sampling sampling = sample_window(own.grid, common->stride, match.window);
     const double interval = own.grid.h * static_cast<double>(common->stride);
     if (sampling.count() == 0) {
@@ -134,7 +141,7 @@ class TimesCheck {
                           at);
     }
     const long last = sampling.last() / common->stride * common->reference_stride;
-    if (last <= reference.grid.count) return;
+    if (match.cycle || last <= reference.grid.count) return;
     report(at,
            fmt::format("'{}' is compared up to {:.9g} s, and the reference run ends at {:.9g} s",
                        match.signal, own.end_time, reference.end_time),

@@ -453,15 +453,19 @@ void Evaluator::store(std::size_t load_case, const PreparedCase& item, Attempt& 
     fail(result, Cause::cancelled, item.outcome.message);
     return;
   }
-  const std::vector<double> numbers = item.metrics.reduce(item.outcome);
+  const SimulationOutcome outcome = item.metrics.judged(item.outcome);
+  const std::vector<double> numbers = item.metrics.reduce(outcome);
   result.responses.insert(result.responses.end(), numbers.begin(), numbers.end());
-  const std::vector<double> residuals = item.metrics.residuals(item.outcome);
+  const std::vector<double> residuals = item.metrics.residuals(outcome);
   result.residuals.insert(result.residuals.end(), residuals.begin(), residuals.end());
   std::vector<Trace> traces = item.metrics.traces();
   if (!traces.empty()) {
     result.traces.push_back({load_cases_[load_case].name, std::move(traces)});
   }
-  if (item.outcome.cause != Cause::ok) fail(result, item.outcome.cause, item.outcome.message);
+  if (auto contacts = item.metrics.contacts(item.preparation.model.mechanism)) {
+    result.contacts.push_back({load_cases_[load_case].name, std::move(*contacts)});
+  }
+  if (outcome.cause != Cause::ok) fail(result, outcome.cause, outcome.message);
 }
 
 // What is left to the case with most of it: one that was long in preparing takes nothing from the

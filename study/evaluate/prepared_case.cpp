@@ -18,9 +18,11 @@ bool same_form(const Observers& a, const Observers& b) {
     return same_series(x, y) && x.sign == y.sign;
   };
   const auto same_reduction = [](const auto& x, const auto& y) {
-    return same_channel(x.channel, y.channel) && same_sampling(x.sampling, y.sampling);
+    return same_channel(x.channel, y.channel) && same_channels(x.place, y.place) &&
+           same_sampling(x.sampling, y.sampling);
   };
-  return std::ranges::equal(a.series, b.series, same_series) &&
+  return a.contacts.most == b.contacts.most &&
+         std::ranges::equal(a.series, b.series, same_series) &&
          std::ranges::equal(a.comparisons, b.comparisons, same_comparison) &&
          std::ranges::equal(a.reductions, b.reductions, same_reduction);
 }

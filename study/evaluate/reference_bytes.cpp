@@ -32,8 +32,18 @@ void visit_members(auto& archive, Like<StepGrid> auto& grid) {
   archive(grid.h);
 }
 
+void visit_members(auto& archive, Like<TimeWindow> auto& window) {
+  archive(window.first, window.last);
+}
+
+// Records without cycles end before them.
 void visit_members(auto& archive, Like<ReferenceRecord> auto& record) {
   archive(record.grid, record.match, record.traces, record.joints, record.poses, record.responses);
+  if constexpr (requires { archive.at_end(); }) {
+    if (!archive.at_end()) archive(record.cycles);
+  } else {
+    if (!record.cycles.empty()) archive(record.cycles);
+  }
 }
 
 std::string encode_reference(const ReferenceRecord& record) {

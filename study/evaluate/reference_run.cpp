@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "study/config/precedence.h"
+#include "study/metrics/cycle.h"
 
 namespace linkstudy {
 namespace {
@@ -39,18 +40,17 @@ std::vector<State<double>> to_states(const Series& series, const Mechanism& mech
   return states;
 }
 
-// Series: one per match, the histories, the poses. Reductions: of the responses, one by one.
+// Series: one per match, one per cycle of a match, the histories, the poses.
 Observers make_observers(const StudyInput& input, const StudySignals& signals,
                          const std::vector<Channel>& all, const StepGrid& grid,
                          double output_interval) {
   Observers observers;
-  for (std::size_t i = 0; i < input.response.size(); ++i) {
-    for (ChannelReduction& one : make_reductions(input.response[i], signals.response[i], grid)) {
-      observers.reductions.push_back(std::move(one));
-    }
-  }
   for (const std::vector<Channel>& channels : signals.match) {
     observers.series.push_back({channels, {0, grid.count, 1}, {}});
+  }
+  for (std::size_t i = 0; i < input.match.size(); ++i) {
+    if (!input.match[i].cycle) continue;
+    observers.series.push_back({signals.match_cycle[i], {0, grid.count, 1}, {}});
   }
   observers.series.push_back(make_histories(signals.trace, grid, output_interval));
   const long stride = std::max(1L, grid.count / kReferencePoses);
@@ -58,21 +58,38 @@ Observers make_observers(const StudyInput& input, const StudySignals& signals,
   return observers;
 }
 
-// Those whose window ends with the run or before.
+// Those whose window ends with the run or before, and whose turns are there.
 std::vector<Trace> reduce_responses(const StudyInput& input, const StudySignals& signals,
-                                    const std::vector<ChannelReduction>& reductions,
+                                    const ResponseWatch& watch, const Observers& observers,
                                     double end_time) {
   std::vector<Trace> responses;
-  std::size_t at = 0;
+  const std::vector<std::vector<double>> numbers = watch.reduce(observers);
   for (std::size_t i = 0; i < input.response.size(); ++i) {
     const ResponseInput& response = input.response[i];
     const bool is_whole = !response.window || response.window->last <= end_time * (1.0 + 1e-9);
-    for (const Channel& channel : signals.response[i]) {
-      const double value = reduce_channel(reductions[at++], response.reduce);
-      if (is_whole) responses.push_back({response_name(response, channel), channel.unit, {value}});
+    for (std::size_t c = 0; is_whole && c < signals.response[i].size(); ++c) {
+      const Channel& channel = signals.response[i][c];
+      responses.push_back({response_name(response, channel), channel.unit, {numbers[i][c]}});
     }
   }
   return responses;
+}
+
+// By [[match]]; the angles are the series behind those of the matches.
+std::vector<TimeWindow> find_cycles(const StudyInput& input, const LoadCaseInput& load_case,
+                                    const std::vector<Series>& series, const StepGrid& grid) {
+  std::vector<TimeWindow> cycles;
+  std::size_t next = input.match.size();
+  for (std::size_t i = 0; i < input.match.size(); ++i) {
+    if (!input.match[i].cycle) continue;
+    const CycleInput& cycle = *input.match[i].cycle;
+    const Series& angle = series[next++];
+    const std::optional<TimeWindow> window = find_cycle(cycle, angle, grid.h);
+    if (!window) fail(load_case, Cause::no_full_turn, no_cycle_text(cycle, angle));
+    cycles.resize(input.match.size());
+    cycles[i] = *window;
+  }
+  return cycles;
 }
 
 }  // namespace
@@ -117,17 +134,21 @@ ReferenceRecord run_reference(const StudyInput& study, const LoadCaseInput& load
   record.grid = make_step_grid(model.options);
   Observers observers =
       make_observers(input, signals, all, record.grid, model.options.output_interval);
+  const ResponseWatch watch(input, signals, record.grid, observers);
   const SimulationOutcome outcome =
       simulate(mechanism, preparation.model.parameters, preparation.model.start, model.options,
                observers, limits, worse({}, preparation.spectrum, preparation.model.start.t));
   if (outcome.cause != Cause::ok) fail(load_case, outcome.cause, outcome.message);
+  record.responses = reduce_responses(input, signals, watch, observers, model.options.end_time);
+  observers.series.resize(observers.series.size() - watch.series_count());
   record.joints = mechanism.joint_names;
   record.poses = to_states(observers.series.back(), mechanism);
   observers.series.pop_back();
   record.traces = to_traces(observers.series.back());
   observers.series.pop_back();
+  record.cycles = find_cycles(input, load_case, observers.series, record.grid);
+  observers.series.resize(input.match.size());
   record.match = std::move(observers.series);
-  record.responses = reduce_responses(input, signals, observers.reductions, model.options.end_time);
   return record;
 }
 

@@ -7,6 +7,7 @@
 
 #include "study/config/toml_writer.h"
 #include "study/kinematics/report.h"
+#include "study/kinematics/swing_tables.h"
 #include "study/kinematics/table.h"
 #include "study/record/version.h"
 
@@ -92,6 +93,8 @@ std::vector<Table> kinematics_tables(const ModelInput& input, const Model& close
   if (result.driven) {
     tables.push_back(group_of("poses", pose_table(input.rigid, closed, result)));
     tables.push_back(singular_group(result));
+    if (!result.swings.empty()) tables.push_back(swings_table(result));
+    if (!result.transmission.empty()) tables.push_back(transmission_table(result));
   }
   if (!result.loops.empty()) tables.push_back(loop_group(result));
   return tables;

@@ -5,6 +5,8 @@
 //   /singular    a row a singular position: kind, time, joint.NAME.q of the drives, quality, z, h,
 //   h_R,
 //                joints
+//   /swings      a row a joint coordinate: least, greatest, where
+//   /transmission   a row a position: transmission angles, of loops that have one
 //   /loops       a row a basic loop: closure, joints, elements, rank, conditioning
 #pragma once
 
@@ -15,8 +17,8 @@
 
 namespace linkstudy {
 
-// The tables that --h5 and results have in common: poses, singular (where something is driven) and
-// loops.
+// The tables that --h5 and results have in common: poses, singular, swings, transmission (where
+// something is driven) and loops.
 std::vector<Table> kinematics_tables(const ModelInput& input, const Model& closed,
                                      const KinematicsResult& result);
 

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/kinematics/three_turns.h"
+#include "study/kinematics/swing_tables.h"
 #include "study/record/counted.h"
 #include "study/record/json_number.h"
 
@@ -195,6 +196,7 @@ void add_course(const KinematicsResult& result, std::vector<Finding>& findings) 
     findings.push_back(
         {"transmission", fmt::format("quality at least {:.4g}, at {}", worst.quality, where)});
   }
+  for (Finding& one : swing_findings(result)) findings.push_back(std::move(one));
   if (result.driven->is_overdriven()) return;
   for (const SingularPosition& p : cycle.singular) {
     findings.push_back({"singular", singular_text(drives, p)});
@@ -360,6 +362,8 @@ std::string kinematics_json(const KinematicsResult& result) {
     json["positions"] = result.cycle.poses.size();
     json["complete"] = result.cycle.is_complete;
     json["contradiction"] = contradicts(result);
+    json["swings"] = swings_json(result);
+    json["transmission_angles"] = transmission_json(result);
   }
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

@@ -6,6 +6,7 @@
 #include "core/kinematics/three_turns.h"
 #include "core/numerics/rank.h"
 #include "core/simulation/channels.h"
+#include "study/kinematics/table.h"
 
 namespace linkstudy {
 namespace {
@@ -106,6 +107,10 @@ KinematicsResult analyse_kinematics(const CourseRequest& request, const Kinemati
   for (const BasicLoop& loop : find_basic_loops(closed.mechanism)) {
     result.loops.push_back(analyse_loop(closed, scale, loop, start, result));
   }
+  if (!result.driven || result.cycle.poses.empty()) return result;
+  result.swings = find_swings(closed.mechanism, *result.course, driven_channels(*result.driven),
+                              kinematics_table(closed, result));
+  result.transmission = find_transmission_angles(closed, *result.course, result.cycle, start);
   return result;
 }
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/kinematics/loop_equations.h"
-#include "study/kinematics/course.h"
+#include "study/kinematics/swings.h"
 
 namespace linkstudy {
 
@@ -27,6 +27,8 @@ struct KinematicsResult {
   int branch = 0;    // there
   DriveCycle cycle;
   std::vector<LoopResult> loops;
+  std::vector<Swing> swings;
+  std::vector<TransmissionAngles> transmission;  // of the loops that have one
   std::vector<int> freedoms;  // at every position to first order, nv - rank J (mobility.h)
 };
 

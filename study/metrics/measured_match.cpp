@@ -88,6 +88,11 @@ class MeasuredMatches {
 
  private:
   MeasuredSet make_set(const MatchInput& match, const std::vector<Channel>& components) {
+    if (match.cycle) {
+      diagnostics_.add(match.cycle->at,
+                       "a cycle is that of a reference run, and this match is compared with data",
+                       "give a window");
+    }
     MeasuredSet set;
     std::vector<std::string> missing;
     for (const Channel& component : components) {

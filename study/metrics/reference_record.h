@@ -7,6 +7,7 @@
 #include "core/model/state.h"
 #include "core/simulation/observers.h"
 #include "core/simulation/simulate.h"
+#include "study/config/measured_input.h"
 #include "study/record/evaluation.h"
 
 namespace linkstudy {
@@ -14,6 +15,7 @@ namespace linkstudy {
 struct ReferenceRecord {
   StepGrid grid{};
   std::vector<Series> match;          // by [[match]]; every step from 0 on
+  std::vector<TimeWindow> cycles;     // by [[match]], where one has a cycle; others are empty
   std::vector<Trace> traces;          // time first, every output interval
   std::vector<Trace> responses;       // what it has of [[response]], one value each
   std::vector<std::string> joints;    // that the coordinates of the poses belong to

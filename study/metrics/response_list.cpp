@@ -94,10 +94,19 @@ class Lister {
     owner_ = static_cast<std::ptrdiff_t>(i);
     constexpr std::array kReductions = {"max", "min", "max_abs", "rms", "mean", "last"};
     const ResponseInput& response = input_.response[i];
-    for (const Channel& channel : signals_.response[i]) {
-      add(response_name(response, channel), channel.unit,
-          fmt::format("{} of {}", kReductions[static_cast<std::size_t>(response.reduce)],
-                      channel.name));
+    const auto add_each = [&](const std::string& ending, const std::string& unit,
+                              const std::string& what) {
+      for (const Channel& channel : signals_.response[i]) {
+        add(response_name(response, channel) + ending, unit.empty() ? channel.unit : unit,
+            fmt::format("{}{} of {}", what, kReductions[static_cast<std::size_t>(response.reduce)],
+                        channel.name));
+      }
+    };
+    add_each("", "", "");
+    if (!response.where) return;
+    add_each("_at", "s", "time of the ");
+    for (const Channel& place : signals_.response_place[i]) {
+      add_each("_where", place.unit, place.name + " at the ");
     }
   }
 
@@ -220,6 +229,11 @@ std::string group_of(const std::vector<std::string>& channels) {
   return channels.front().substr(0, channels.front().rfind('.'));
 }
 
+std::size_t numbers_of_each(const ResponseInput& response) {
+  if (!response.where) return 1;
+  return response.where->channel.empty() ? 2 : 3;
+}
+
 std::string response_name(const ResponseInput& response, const Channel& channel) {
   return response.name + to_name(component_of(channel.name, response.signal));
 }
@@ -258,7 +272,9 @@ ResponseLayout layout_of(const StudyInput& input, const StudySignals& signals) {
     layout.width += 2 * channels.size();
   }
   if (is_calibration(input)) ++layout.width;
-  for (const auto& channels : signals.response) layout.width += channels.size();
+  for (std::size_t i = 0; i < signals.response.size(); ++i) {
+    layout.width += signals.response[i].size() * numbers_of_each(input.response[i]);
+  }
   layout.always = layout.width;
   layout.width += kRunNumbers;
   return layout;

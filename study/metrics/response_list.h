@@ -26,6 +26,10 @@ enum class RunNumber {
 };
 inline constexpr std::size_t kRunNumbers = 10;
 
+// Numbers that a [[response]] keeps of each of its channels: the value; where it asks for it, when
+// it is reached, and what another channel has there. First all values, then all instants.
+std::size_t numbers_of_each(const ResponseInput& response);
+
 // Of a channel of a [[response]], without the load case: "peak.x" as "peak_x".
 std::string response_name(const ResponseInput& response, const Channel& channel);
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "study/metrics/common_grid.h"
+#include "study/metrics/contact_table.h"
 
 namespace linkstudy {
 namespace {
@@ -12,40 +13,6 @@ namespace {
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
-
-double reduce_channel(const ChannelReduction& r, Reduction how) {
-  const double length = total_weight(r.sampling, r.ends);
-  if (r.seen == 0) return kNan;
-  switch (how) {
-    case Reduction::max:
-      return r.max;
-    case Reduction::min:
-      return r.min;
-    case Reduction::max_abs:
-      return std::max(std::abs(r.min), std::abs(r.max));
-    case Reduction::rms:
-      return std::sqrt(r.square / length);
-    case Reduction::mean:
-      return r.sum / length;
-    case Reduction::last:
-      break;
-  }
-  return r.last;
-}
-
-std::vector<ChannelReduction> make_reductions(const ResponseInput& response,
-                                              const std::vector<Channel>& channels,
-                                              const StepGrid& grid) {
-  std::vector<ChannelReduction> reductions;
-  for (const Channel& channel : channels) {
-    ChannelReduction& reduction = reductions.emplace_back();
-    reduction.channel = channel;
-    reduction.sampling = sample_window(grid, 1, response.window);
-    if (!response.window) reduction.sampling.begin = 0;
-    reduction.ends = find_window_ends(grid, reduction.sampling, response.window);
-  }
-  return reductions;
-}
 
 Channel time_channel() {
   return {"time", "s", Quantity::time, 0, 0};
@@ -69,11 +36,12 @@ RunMetrics::RunMetrics(const StudyInput& input, const StudySignals& signals,
     observers_.comparisons.push_back(match.make_comparison());
   }
   add_gaps(signals);
-  add_responses(input, signals);
   if (!signals.trace.empty()) {
     has_traces_ = true;
+    observers_.contacts.most = kMostContactsListed;
     observers_.series.push_back(make_histories(signals.trace, grid_, options.output_interval));
   }
+  responses_.emplace(input, signals, grid_, observers_);
   first_match_ = observers_.series.size();
   for (std::size_t i = 0; i < compared_->measured_matches.size(); ++i) {
     observers_.series.push_back({signals.match[i], compared_->measured_matches[i].sampling(), {}});
@@ -100,7 +68,9 @@ std::shared_ptr<const RunMetrics::Compared> RunMetrics::compare(const StudyInput
       compared.measured_matches.emplace_back(*measured.reference, i, grid);
       continue;
     }
-    compared.matches.emplace_back(input.match[i], signals.match[i], grid, reference->match[i],
+    MatchInput match = input.match[i];
+    if (match.cycle) match.window = reference->cycles.at(i);
+    compared.matches.emplace_back(match, signals.match[i], grid, reference->match[i],
                                   reference->grid);
   }
   if (!signals.gaps.empty()) {
@@ -129,21 +99,22 @@ void RunMetrics::add_gaps(const StudySignals& signals) {
   }
 }
 
-void RunMetrics::add_responses(const StudyInput& input, const StudySignals& signals) {
-  for (std::size_t i = 0; i < input.response.size(); ++i) {
-    for (ChannelReduction& one : make_reductions(input.response[i], signals.response[i], grid_)) {
-      observers_.reductions.push_back(std::move(one));
-      reductions_.push_back(input.response[i].reduce);
-    }
-  }
-}
-
 double RunMetrics::find_gap() const {
   double gap = 0.0;
   for (std::size_t i = compared_->matches.size(); i < observers_.comparisons.size(); ++i) {
     gap = std::max(gap, observers_.comparisons[i].max_vector_error);
   }
   return gap;
+}
+
+SimulationOutcome RunMetrics::judged(const SimulationOutcome& outcome) const {
+  if (outcome.cause != Cause::ok) return outcome;
+  const std::optional<std::string> missing = responses_->missing_turn(observers_);
+  if (!missing) return outcome;
+  SimulationOutcome failed = outcome;
+  failed.cause = Cause::no_full_turn;
+  failed.message = *missing;
+  return failed;
 }
 
 std::vector<double> RunMetrics::reduce(const SimulationOutcome& outcome) const {
@@ -166,8 +137,8 @@ std::vector<double> RunMetrics::reduce(const SimulationOutcome& outcome) const {
     for (const double one : all) square += one * one;
     numbers.push_back(std::sqrt(square / static_cast<double>(all.size())));
   }
-  for (std::size_t i = 0; i < reductions_.size(); ++i) {
-    numbers.push_back(reduce_channel(observers_.reductions[i], reductions_[i]));
+  for (const std::vector<double>& one : responses_->reduce(observers_)) {
+    numbers.insert(numbers.end(), one.begin(), one.end());
   }
   numbers.push_back(find_gap());
   numbers.push_back(outcome.drift_max);
@@ -185,6 +156,11 @@ std::vector<double> RunMetrics::reduce(const SimulationOutcome& outcome) const {
 
 std::vector<Trace> RunMetrics::traces() const {
   return has_traces_ ? to_traces(observers_.series.front()) : std::vector<Trace>();
+}
+
+std::optional<Table> RunMetrics::contacts(const Mechanism& mechanism) const {
+  if (observers_.contacts.records.empty()) return std::nullopt;
+  return make_contact_table(mechanism, observers_.contacts);
 }
 
 std::vector<Trace> to_traces(const Series& series) {

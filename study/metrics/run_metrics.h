@@ -8,6 +8,7 @@
 #include "study/metrics/match_error.h"
 #include "study/metrics/measured_match.h"
 #include "study/metrics/response_list.h"
+#include "study/metrics/response_watch.h"
 
 namespace linkstudy {
 
@@ -30,6 +31,9 @@ class RunMetrics {
   Observers& observers() { return observers_; }
   const Observers& observers() const { return observers_; }
 
+  // The outcome, failed where the run has not the turns that are looked at.
+  SimulationOutcome judged(const SimulationOutcome& outcome) const;
+
   // One number for each response of a load case (response_list.h). Of a run that failed only what
   // does not depend on its end is kept, the rest is NaN.
   std::vector<double> reduce(const SimulationOutcome& outcome) const;
@@ -39,6 +43,8 @@ class RunMetrics {
 
   // Histories asked for, time first; empty when there are none.
   std::vector<Trace> traces() const;
+  // Contacts of a run whose histories are kept; nothing where it has none.
+  std::optional<Table> contacts(const Mechanism& mechanism) const;
 
  private:
   // What a run is compared with, all of it constant.
@@ -59,24 +65,17 @@ class RunMetrics {
   bool compares_alike(const StudySignals& signals, const StepGrid& grid,
                       const ReferenceRecord* reference, const MeasuredRun& measured) const;
   void add_gaps(const StudySignals& signals);
-  void add_responses(const StudyInput& input, const StudySignals& signals);
   double find_gap() const;
 
   StepGrid grid_;
-  std::vector<Reduction> reductions_;  // by reduced channel
   std::shared_ptr<const Compared> compared_;
   Observers observers_;  // comparisons: matches, then gaps
+  std::optional<ResponseWatch> responses_;
   bool has_traces_ = false;
   std::size_t first_match_ = 0;  // series of the first match with data; the others follow
   std::shared_ptr<const MeasuredSet> measured_;
   std::optional<InstantSampler> sampler_;  // its series is the last
 };
-
-// What a [[response]] watches of its channels, and the number it keeps of each.
-std::vector<ChannelReduction> make_reductions(const ResponseInput& response,
-                                              const std::vector<Channel>& channels,
-                                              const StepGrid& grid);
-double reduce_channel(const ChannelReduction& reduction, Reduction how);
 
 // Histories of `channels` at every output interval, time first.
 Series make_histories(const std::vector<Channel>& channels, const StepGrid& grid,

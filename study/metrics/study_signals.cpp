@@ -35,6 +35,31 @@ std::vector<Channel> find_signal(const std::vector<Channel>& channels, const std
   return {};
 }
 
+std::vector<Channel> find_angle(const std::vector<Channel>& channels,
+                                const std::optional<CycleInput>& cycle, const char* where,
+                                Diagnostics& diagnostics) {
+  if (!cycle) return {};
+  std::vector<Channel> found = find_signal(channels, cycle->of, where, cycle->at, diagnostics);
+  const bool is_angle =
+      found.size() == 1 && found.front().quantity == Quantity::q && found.front().unit == "rad";
+  if (found.empty() || is_angle) return found;
+  diagnostics.add(cycle->at, fmt::format("cycle: '{}' is not the angle of a joint", cycle->of),
+                  "name the angle of a joint that turns through, such as joint.crank.q");
+  return {};
+}
+
+std::vector<Channel> find_place(const std::vector<Channel>& channels,
+                                const std::optional<PlaceInput>& place, Diagnostics& diagnostics) {
+  if (!place || place->channel.empty()) return {};
+  std::vector<Channel> found =
+      find_signal(channels, place->channel, "the model", place->at, diagnostics);
+  if (found.size() <= 1) return found;
+  diagnostics.add(place->at,
+                  fmt::format("where: '{}' has {} components", place->channel, found.size()),
+                  fmt::format("name one, such as {}", found.front().name));
+  return {};
+}
+
 void add_once(std::vector<Channel>& all, const std::vector<Channel>& more) {
   for (const Channel& channel : more) {
     const bool known =
@@ -77,6 +102,9 @@ StudySignals find_case_signals(const StudyInput& input, const std::vector<Channe
   for (const ResponseInput& response : input.response) {
     signals.response.push_back(
         find_signal(channels, response.signal, "the model", response.at, diagnostics));
+    signals.response_cycle.push_back(
+        find_angle(channels, response.cycle, "the model", diagnostics));
+    signals.response_place.push_back(find_place(channels, response.where, diagnostics));
   }
   for (const TraceInput& trace : input.trace) {
     add_once(signals.trace, find_signal(channels, trace.signal, "the model", trace.at, diagnostics,
@@ -92,9 +120,16 @@ StudySignals find_reference_signals(const StudyInput& input, const std::vector<C
     signals.match.push_back(find_signal(channels, match.reference_signal, "the reference model",
                                         match.reference_at, diagnostics));
     add_once(signals.trace, signals.match.back());
+    signals.match_cycle.push_back(
+        find_angle(channels, match.cycle, "the reference model", diagnostics));
   }
   for (const ResponseInput& response : input.response) {
+    Diagnostics of_the_case;  // what the reference lacks it does not answer
     signals.response.push_back(find_channels(channels, response.signal));
+    signals.response_place.push_back(find_place(channels, response.where, of_the_case));
+    signals.response_cycle.push_back(
+        find_angle(channels, response.cycle, "the reference model", of_the_case));
+    if (!of_the_case.empty()) signals.response.back().clear();
   }
   for (const TraceInput& trace : input.trace) {
     add_once(signals.trace, find_channel_group(channels, trace.signal));

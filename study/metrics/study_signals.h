@@ -11,9 +11,12 @@ namespace linkstudy {
 struct StudySignals {
   std::vector<std::vector<Channel>> match;     // by [[match]]
   std::vector<std::vector<Channel>> response;  // by [[response]]
-  std::vector<Channel> trace;                  // of all [[trace]], once each; not time
-  std::vector<std::vector<Channel>> gaps;      // by closure: x y z
-  std::vector<Channel> measured;               // of the experiment, one for each of its signals
+  // One channel or none: angles of cycles, by [[match]] (of a reference only) and by [[response]];
+  // what is wanted where extremes are.
+  std::vector<std::vector<Channel>> match_cycle, response_cycle, response_place;
+  std::vector<Channel> trace;              // of all [[trace]], once each; not time
+  std::vector<std::vector<Channel>> gaps;  // by closure: x y z
+  std::vector<Channel> measured;           // of the experiment, one for each of its signals
 };
 
 // Whether two runs show the same under these: names, units and what is looked up for them.

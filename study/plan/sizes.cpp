@@ -51,7 +51,12 @@ RunSizes sizes_of(const Evaluator& study, const RunKind& kind) {
   sizes.traces = history_bytes(signals.trace.size(), kind.grid, kind.options.output_interval);
   const auto cases = load_cases_of(study.input());
   const auto& measured = cases[kind.load_case].measured;
-  const double watched = measured ? 3.0 * static_cast<double>(measured->signals.size()) : 0.0;
+  double watched = measured ? 3.0 * static_cast<double>(measured->signals.size()) : 0.0;
+  for (std::size_t i = 0; i < signals.response.size(); ++i) {
+    if (!study.input().response[i].cycle) continue;
+    watched +=
+        static_cast<double>(signals.response[i].size() + signals.response_place[i].size() + 1);
+  }
   sizes.watched = sizes.traces + kNumber * rows * watched;
   return sizes;
 }

@@ -10,6 +10,7 @@
 
 #include "core/simulation/cause.h"
 #include "study/record/bytes.h"
+#include "study/record/table.h"
 
 namespace linkstudy {
 
@@ -77,6 +78,16 @@ void visit_members(auto& archive, Like<CaseTraces> auto& set) {
   archive(set.load_case, set.traces);
 }
 
+// A table of one run in a load case.
+struct CaseTable {
+  std::string load_case;
+  Table table;
+};
+
+void visit_members(auto& archive, Like<CaseTable> auto& one) {
+  archive(one.load_case, one.table);
+}
+
 struct Evaluation {
   Point point;
   Cause status = Cause::ok;
@@ -93,6 +104,7 @@ struct Evaluation {
   std::vector<Trace> derived;
   std::vector<double> residuals;  // of a calibration, against what was measured
   std::vector<CaseTraces> traces;
+  std::vector<CaseTable> contacts;  // of runs whose histories are kept
   // Of model and start; said by rank 0 and not stored.
   std::vector<std::string> warnings;
 };
@@ -111,7 +123,7 @@ struct WholeEvaluation {
 
 void visit_members(auto& archive, Like<WholeEvaluation> auto& whole) {
   archive(whole.evaluation, whole.evaluation.derived, whole.evaluation.residuals,
-          whole.evaluation.traces, whole.evaluation.warnings);
+          whole.evaluation.traces, whole.evaluation.contacts, whole.evaluation.warnings);
 }
 
 }  // namespace linkstudy

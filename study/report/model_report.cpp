@@ -289,7 +289,7 @@ std::vector<std::string> outcome_notes(const SimulationOutcome& outcome,
 }  // namespace
 
 std::string outcome_text(const SimulationOutcome& outcome, const SimulationOptions& options,
-                         double wall_s) {
+                         const std::string& hardest, double wall_s) {
   std::string text =
       summary_line("status", outcome.cause == Cause::ok
                                  ? std::string("ok")
@@ -304,6 +304,7 @@ std::string outcome_text(const SimulationOutcome& outcome, const SimulationOptio
     text += summary_line("limit", limit_text(outcome.step_limit));
   }
   if (outcome.contacts > 0) text += summary_line("contacts", contacts_text(outcome));
+  if (!hardest.empty()) text += summary_line("hardest", hardest);
   text += summary_line("drift_max", fmt::format("{:.4g}", outcome.drift_max));
   text += summary_line("energy", fmt::format("residual at most {:.4g} J of {:.4g} J",
                                              outcome.energy_residual_max, outcome.energy_scale));

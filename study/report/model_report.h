@@ -36,9 +36,10 @@ std::string failure_text(const Preparation& preparation);
 // Values of an equilibrium, one a line.
 std::string values_text(const std::vector<StaticValue>& values);
 
-// How the run ended, with a note where contacts were too short for the step.
+// How the run ended, with a note where contacts were too short for the step. `hardest`: of its
+// contacts, or empty.
 std::string outcome_text(const SimulationOutcome& outcome, const SimulationOptions& options,
-                         double wall_s);
+                         const std::string& hardest, double wall_s);
 
 // The object of `simulate --json`. Numbers that are not finite are null.
 std::string outcome_json(const Preparation& preparation, const SimulationOutcome* outcome,

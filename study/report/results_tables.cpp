@@ -9,6 +9,7 @@
 #include "study/config/input_error.h"
 #include "study/record/digest.h"
 #include "study/report/choose_table.h"
+#include "study/report/contacts_report.h"
 #include "study/report/summary_table.h"
 #include "study/store/results_tree.h"
 
@@ -45,7 +46,7 @@ Made summary_of(const StudyResults& results) {
   return summary_table(results);
 }
 
-constexpr std::array<ResultsTable, 23> kTables = {{
+constexpr std::array<ResultsTable, 26> kTables = {{
     {"summary",
      "what varies, the worst errors in percent, responses, status; by load case. Of statics and "
      "kinematics what was found, in words",
@@ -54,6 +55,11 @@ constexpr std::array<ResultsTable, 23> kTables = {{
      [](const StudyResults& r) { return Made(evaluations_table(r)); }},
     {"traces", "time histories, and their differences from the reference", traces_table,
      "these results hold no time histories; studies keep those of [[trace]]", true},
+    {"contacts",
+     "contacts of journals and of end stops, one by one: begin, end, speeds, restitution, force",
+     contacts_table,
+     "these results hold no contacts; studies keep those of the runs whose histories they keep "
+     "([[trace]])"},
     {"tuning", "the answer, its damping, window, margin and verdict",
      [](const StudyResults& r) { return part_of(AnswerKind::tuning, r, "result"); }, kNotTuned},
     {"components", "errors and tolerances of the matched components at the answer",
@@ -99,6 +105,14 @@ constexpr std::array<ResultsTable, 23> kTables = {{
     {"loops", "basic loops: joints, proper equations, how well they are conditioned",
      [](const StudyResults& r) { return part_of(AnswerKind::kinematics, r, "loops"); },
      "these results hold no closed loop"},
+    {"swings", "how far every joint coordinate swings along the course, and where its ends are",
+     [](const StudyResults& r) { return part_of(AnswerKind::kinematics, r, "swings"); },
+     kNoKinematics},
+    {"transmission", "transmission angles at every position, of loops of four links on ground",
+     [](const StudyResults& r) { return part_of(AnswerKind::kinematics, r, "transmission"); },
+     "no loop has a transmission angle (core/kinematics/transmission_angle.h), or these are no "
+     "results of kinematics",
+     true},
     {"poses", "Euler parameters and position of every link at every position of the course",
      [](const StudyResults& r) { return part_of(AnswerKind::kinematics, r, "poses"); },
      kNoKinematics, true},

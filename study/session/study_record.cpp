@@ -165,6 +165,13 @@ const Evaluation& StudyRecord::add(Evaluation evaluation) {
   for (const CaseTraces& set : std::exchange(evaluation.traces, {})) {
     add_traces({trace_name(id, set.load_case), static_cast<std::int64_t>(id), set.traces});
   }
+  for (CaseTable& one : std::exchange(evaluation.contacts, {})) {
+    one.table.name = trace_name(id, one.load_case);
+    one.table.attributes = {{"evaluation", static_cast<std::int64_t>(id)}};
+    journal_.append(contacts_text(one.table));
+    std::erase_if(results_.contacts, [&](const Table& t) { return t.name == one.table.name; });
+    results_.contacts.push_back(std::move(one.table));
+  }
   if (!evaluation.derived.empty()) journal_.append(derived_set(evaluation));
   if (!evaluation.residuals.empty()) journal_.append(residuals_set(evaluation));
   journal_.append(evaluation);

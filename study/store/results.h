@@ -119,6 +119,7 @@ struct StudyResults {
   std::vector<Evaluation> evaluations;
   std::vector<TraceSet> references;
   std::vector<TraceSet> traces;
+  std::vector<Table> contacts;  // of a run each, named as its traces; attribute "evaluation"
   std::vector<VerbAnswer> answers;
   std::vector<ProvenanceRow> provenance;
   std::vector<NamedText> texts;  // input text, resolved input, build, machine

@@ -25,6 +25,7 @@ constexpr std::string_view kReferencePrefix = "reference";
 constexpr std::string_view kDerivedPrefix = "derived_";
 constexpr std::string_view kResidualsPrefix = "residuals_";
 constexpr std::string_view kTablesSuffix = "_tables";
+constexpr std::string_view kContactsPrefix = "contacts/";
 constexpr const char* kAnswer = "answer";
 
 void add_groups(Table& root, const std::string& name, std::vector<Table> groups) {
@@ -231,7 +232,21 @@ Table& answer_of(StudyResults& results, AnswerKind kind, std::string_view name) 
   return results.answers.emplace_back(VerbAnswer{kind, Table{std::string(name)}}).tables;
 }
 
+// A later run of the same evaluation takes its place.
+void add_contacts(Table contacts, StudyResults& results) {
+  const auto found = std::ranges::find(results.contacts, contacts.name, &Table::name);
+  if (found == results.contacts.end()) {
+    results.contacts.push_back(std::move(contacts));
+  } else {
+    *found = std::move(contacts);
+  }
+}
+
 void add_text(const NamedText& text, StudyResults& results) {
+  if (text.name.starts_with(kContactsPrefix)) {
+    add_contacts(from_bytes<Table>(text.text), results);
+    return;
+  }
   const std::optional<AnswerKind> kind = answer_kind_of(text);
   if (!kind) {
     results.texts.push_back(text);
@@ -265,6 +280,7 @@ Table tree_of(const StudyResults& results) {
   root.parts.push_back(study_group(description, evaluations));
   add_groups(root, "reference", trace_groups(results.references));
   add_groups(root, "traces", trace_groups(results.traces));
+  add_groups(root, "contacts", results.contacts);
   for (const Word<AnswerKind>& kind : kWords<AnswerKind>) {
     std::vector<Table> groups;
     for (const VerbAnswer& answer : results.answers) {
@@ -293,6 +309,7 @@ StudyResults results_of(const Table& tree) {
   read_provenance(part(tree, "provenance"), results);
   results.references = read_traces(part(tree, "reference"));
   results.traces = read_traces(part(tree, "traces"));
+  results.contacts = part(tree, "contacts").parts;
   for (const Word<AnswerKind>& kind : kWords<AnswerKind>) {
     for (const Table& tables : part(tree, std::string(kind.text)).parts) {
       results.answers.push_back({kind.value, tables});
@@ -358,6 +375,10 @@ TraceSet residuals_set(const Evaluation& evaluation) {
   return {fmt::format("{}{}", kResidualsPrefix, evaluation.point.id),
           static_cast<std::int64_t>(evaluation.point.id),
           {{"residuals", "", evaluation.residuals}}};
+}
+
+NamedText contacts_text(const Table& contacts) {
+  return {fmt::format("{}{}", kContactsPrefix, contacts.name), to_bytes(contacts)};
 }
 
 std::vector<NamedText> answer_texts(const VerbAnswer& answer) {

@@ -4,6 +4,7 @@
 //               parent_evaluation. Failed rows stay, with NaN and their cause. What is derived of
 //               the input has the role "derived".
 //   /reference/<name>, /traces/<name>   time histories over their time
+//   /contacts/<name>   the contacts of a run whose histories are there
 //   /tuning/<name>, /calibration/<name>, /convergence/<name>, /statics/<name>, /kinematics/<name>
 //               groups of columns, the answer as JSON
 //   /runtime    wall time, rank, host of each evaluation: outside the digest
@@ -25,9 +26,10 @@ namespace linkstudy {
 StudyResults results_from(const JournalContents& contents);
 
 // How the journal keeps what is derived for an evaluation, its residuals (results.h5 has those of
-// the best fit only), and an answer: its JSON object, and its tables.
+// the best fit only), the contacts of a run, and an answer: its JSON object, and its tables.
 TraceSet derived_set(const Evaluation& evaluation);
 TraceSet residuals_set(const Evaluation& evaluation);
+NamedText contacts_text(const Table& contacts);
 std::vector<NamedText> answer_texts(const VerbAnswer& answer);
 // Of which kind a text of answer_texts is; nothing where it is none.
 std::optional<AnswerKind> answer_kind_of(const NamedText& text);

@@ -126,6 +126,77 @@ TEST_F(Kinematics, Tells_the_mobility_of_every_model_in_configs) {
   }
 }
 
+json swing_of(const json& object, const std::string& coordinate) {
+  for (const json& one : object["swings"])
+    if (one["coordinate"] == coordinate) return one;
+  return {};
+}
+
+constexpr double kDegree = M_PI / 180.0;
+
+// The angle opposite to c in a triangle of sides a, b, c, in degrees.
+double opposite(double a, double b, double c) {
+  return std::acos((a * a + b * b - c * c) / (2.0 * a * b)) / kDegree;
+}
+
+// Crank 0.10 m, coupler 0.35 m, rocker 0.30 m, frame 0.40 m. The rocker turns back where crank and
+// coupler are in line; the transmission angle is extreme where crank and frame are. Ends lie
+// between the 73 positions: the quintic through them is good to (5 deg)^6 / 46080 = 1e-11 of the
+// sixth derivatives, which grow to some 1e3 here.
+TEST_F(Kinematics, Finds_the_swing_and_the_least_transmission_angle_of_a_crank_rocker) {
+  const json found = object("four_bar");
+  const json rocker = swing_of(found, "joint.D.q");
+  EXPECT_EQ(rocker["motion"], "swings");
+  EXPECT_EQ(rocker["unit"], "deg");
+  const double least = 180.0 - opposite(0.4, 0.3, 0.45),
+               greatest = 180.0 - opposite(0.4, 0.3, 0.25);
+  EXPECT_NEAR(rocker["least"]["value"], least, 1e-6);
+  EXPECT_NEAR(rocker["greatest"]["value"], greatest, 1e-6);
+  EXPECT_NEAR(rocker["swing"], greatest - least, 2e-6);
+  // Stretched and folded: the crank points along the coupler, or away from it.
+  EXPECT_NEAR(
+      std::remainder(rocker["least"]["drive"].get<double>() - opposite(0.4, 0.45, 0.3), 360.0), 0.0,
+      1e-4);
+  EXPECT_NEAR(
+      std::remainder(rocker["greatest"]["drive"].get<double>() - 180.0 - opposite(0.4, 0.25, 0.3),
+                     360.0),
+      0.0, 1e-4);
+  EXPECT_EQ(swing_of(found, "joint.A.q")["motion"], "turns");
+  EXPECT_EQ(swing_of(found, "joint.A.q")["driven"], true);
+  EXPECT_EQ(swing_of(found, "joint.B.q")["on_ground"], false);
+  ASSERT_EQ(found["transmission_angles"].size(), 1u);
+  const json worst = found["transmission_angles"][0];
+  EXPECT_EQ(worst["output"], "joint.D");
+  const double near_frame = opposite(0.35, 0.3, 0.3), away = 180.0 - opposite(0.35, 0.3, 0.5);
+  EXPECT_NEAR(worst["least"]["value"], std::min(near_frame, away), 1e-6);
+  EXPECT_NEAR(std::remainder(worst["least"]["drive"].get<double>(), 360.0), 0.0, 1e-3);
+  const std::string text = analyse("four_bar").out;
+  EXPECT_THAT(text, HasSubstr("joint.D.q by"));
+  EXPECT_THAT(text, HasSubstr("transmission angle to joint.D at least"));
+}
+
+// Crank 0.1 m, rod 0.3 m: a stroke of two cranks, and the rod leans most where the crank is across.
+TEST_F(Kinematics, Finds_the_stroke_and_the_least_transmission_angle_of_a_slider_crank) {
+  const json found = object("slider_crank");
+  const json slider = swing_of(found, "joint.P.q");
+  EXPECT_EQ(slider["unit"], "m");
+  EXPECT_NEAR(slider["least"]["value"], 0.2, 1e-9);
+  EXPECT_NEAR(slider["least"]["drive"], 180.0, 1e-4);
+  EXPECT_NEAR(slider["greatest"]["value"], 0.4, 1e-9);
+  EXPECT_NEAR(slider["greatest"]["drive"], 360.0, 1e-4);
+  const json worst = found["transmission_angles"][0];
+  EXPECT_EQ(worst["output"], "joint.P");
+  EXPECT_NEAR(worst["least"]["value"], std::acos(0.1 / 0.3) / kDegree, 1e-6);
+  EXPECT_NEAR(std::abs(std::remainder(worst["least"]["drive"].get<double>(), 360.0)), 90.0, 1e-3);
+  EXPECT_THAT(object("n_four_bar")["swings"], Not(IsEmpty()));
+  // The numbers of its head, from two triangles.
+  const json lever = swing_of(object("planar_two_loop"), "joint.G.q");
+  EXPECT_NEAR(lever["least"]["value"], -13.3702, 5e-5);
+  EXPECT_NEAR(lever["greatest"]["value"], 46.5856, 5e-5);
+  EXPECT_THAT(object("rsrrp")["transmission_angles"], IsEmpty()) << "a loop of five links";
+  EXPECT_THAT(object("quick_return")["transmission_angles"].size(), ::testing::Le(1u));
+}
+
 TEST_F(Kinematics, Names_joints_and_links) {
   EXPECT_THAT(object("bennett")["redundant_joints"],
               ElementsAre("joint.A", "joint.B", "joint.D", "closure.C"));

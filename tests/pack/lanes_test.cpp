@@ -32,6 +32,8 @@ Observers watch_everything(const Model& model, long steps) {
   Observers o;
   o.series.push_back({all, {0, steps, 7}, {}});
   o.reductions.push_back({all.back(), {1, steps, 2}, {}});
+  o.reductions.back().place = {all[1]};
+  o.contacts.most = 20;
   return o;
 }
 
@@ -70,6 +72,15 @@ void run_cases(std::vector<Case>& cases, const SimulationOptions& options, SimdL
   for (std::size_t i = 0; i < cases.size(); ++i) cases[i].outcome = batch[i].outcome;
 }
 
+bool same_contacts(const ContactList& a, const ContactList& b) {
+  const auto same = [](const ContactRecord& x, const ContactRecord& y) {
+    return x.contact == y.contact &&
+           same_bits({x.begin, x.end, x.approach, x.separation, x.force, x.depth},
+                     {y.begin, y.end, y.approach, y.separation, y.force, y.depth});
+  };
+  return a.unlisted == b.unlisted && std::ranges::equal(a.records, b.records, same);
+}
+
 ::testing::AssertionResult same_run(const Case& a, const Case& b) {
   const auto differ = [](const char* what) { return ::testing::AssertionFailure() << what; };
   if (a.outcome.cause != b.outcome.cause) return differ("cause");
@@ -97,6 +108,11 @@ void run_cases(std::vector<Case>& cases, const SimulationOptions& options, SimdL
                  {s.min, s.max, s.sum, s.square, s.last})) {
     return differ("reduction");
   }
+  if (r.min_step != s.min_step || r.max_step != s.max_step ||
+      !same_bits({r.min_place, r.max_place}, {s.min_place, s.max_place})) {
+    return differ("place of an extreme");
+  }
+  if (!same_contacts(a.observers.contacts, b.observers.contacts)) return differ("list of contacts");
   return ::testing::AssertionSuccess();
 }
 

@@ -10,6 +10,7 @@
 #include "core/base/flush_denormals.h"
 #include "core/simulation/kernels.h"
 #include "core/simulation/prepare.h"
+#include "core/simulation/run_state.h"
 #include "core/simulation/simulate.h"
 #include "core/simulation/written_steps.h"
 #include "tests/pack/shipped_models.h"
@@ -46,8 +47,7 @@ class Cases {
     std::vector<double>& y = start_ = model.start.q;
     y.insert(y.end(), model.start.v.begin(), model.start.v.end());
     y.insert(y.end(), model.start.z.begin(), model.start.z.end());
-    y.resize(
-        static_cast<std::size_t>(model.mechanism.nq + model.mechanism.nv + model.mechanism.nz + 2));
+    y.resize(static_cast<std::size_t>(state_size(model.mechanism)));
     for (std::size_t i = 0; i < kNarrow; ++i) {
       Parameters<double>& p = parameters_.at(i) = model.parameters;
       for (auto& b : p.bodies) b.mass *= 1.0 + 1e-3 * static_cast<double>(i);

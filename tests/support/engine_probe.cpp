@@ -38,7 +38,7 @@ void EngineProbe::evaluate_at(const State<double>& state) {
   y_.assign(state.q.begin(), state.q.end());
   y_.insert(y_.end(), state.v.begin(), state.v.end());
   y_.insert(y_.end(), state.z.begin(), state.z.end());
-  y_.insert(y_.end(), {state.supplied, state.dissipated});
+  y_.insert(y_.end(), {state.supplied, state.dissipated, state.dissipated_in_contacts});
   compute_motion(model_.mechanism, model_.parameters, state, w_);
   now_->move_to(state.t, y_.data());
 }

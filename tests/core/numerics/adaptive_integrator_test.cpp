@@ -319,4 +319,35 @@ TEST(AdaptiveIntegrator, Slopes_that_are_no_numbers_are_a_typed_failure) {
   }
 }
 
+// A pendulum with the integral of its speed beside it, which is the way of its angle.
+TEST(AdaptiveIntegrator, An_integral_without_a_tolerance_changes_no_bit_of_the_others) {
+  for (const AdaptiveMethod method : kMethods) {
+    const auto alone = make(method, pendulum, 2, 1e-8);
+    AdaptiveProblem problem;
+    problem.slopes = [](double t, const double* y, double* dy) {
+      pendulum(t, y, dy);
+      dy[2] = y[1];
+    };
+    problem.relative = 1e-8;
+    problem.absolute = {1e-8, 1e-8, std::numeric_limits<double>::infinity()};
+    problem.passive = 1;
+    const auto beside = make_adaptive_integrator(method, problem);
+    const double start[] = {0.0, 0.0, 3.0};
+    alone->start(0.0, start);
+    beside->start(0.0, start);
+    while (alone->t() < 2.0) {
+      ASSERT_EQ(alone->step(2.0), StepResult::accepted);
+      ASSERT_EQ(beside->step(2.0), StepResult::accepted);
+      ASSERT_EQ(beside->t(), alone->t());
+      EXPECT_EQ(beside->y()[0], alone->y()[0]);
+      EXPECT_EQ(beside->y()[1], alone->y()[1]);
+      // Within what the equations of a step are solved to.
+      EXPECT_NEAR(beside->y()[2] - 3.0, beside->y()[0], 1e-6);
+      double inside[3];
+      beside->value_at(0.7 * beside->t_old() + 0.3 * beside->t(), inside);
+      EXPECT_NEAR(inside[2] - 3.0, inside[0], 1e-5) << "dense output of order 3";
+    }
+  }
+}
+
 }  // namespace linkstudy::testing::adaptive_integrator_test

@@ -103,6 +103,7 @@ TEST(Observers, A_reduction_and_a_comparison_say_what_the_series_says) {
   Observers first;
   first.series.push_back({force, window, {}});
   first.reductions.push_back({force[1], window, {}});
+  first.reductions[0].place = {force[2]};
   const SimulationOptions options = steps_of(1e-4, 0.1);
   simulate(model.mechanism, model.parameters, model.start, options, first);
   const std::vector<double>& reference = first.series[0].values;
@@ -119,6 +120,7 @@ TEST(Observers, A_reduction_and_a_comparison_say_what_the_series_says) {
   ASSERT_EQ(simulate(soft.mechanism, soft.parameters, soft.start, options, second).cause,
             Cause::ok);
   double low = 1e99, high = -1e99, sum = 0.0;
+  std::size_t lowest = 0, highest = 0;  // values
   std::array<double, 3> worst{}, square{};
   for (std::size_t k = 0; k < reference.size(); ++k) {
     const double e = second.series[0].values[k] - reference[k];
@@ -127,12 +129,18 @@ TEST(Observers, A_reduction_and_a_comparison_say_what_the_series_says) {
     const double weight = is_end ? 0.5 : 1.0;  // trapezoidal rule
     square[k % 3] += weight * e * e;
     if (k % 3 != 1) continue;
+    if (reference[k] < low) lowest = k;
+    if (reference[k] > high) highest = k;
     low = std::min(low, reference[k]);
     high = std::max(high, reference[k]);
     sum += weight * reference[k];
   }
   EXPECT_EQ(first.reductions[0].min, low);
   EXPECT_EQ(first.reductions[0].max, high);
+  EXPECT_EQ(first.reductions[0].min_step, 100 + 10 * static_cast<long>(lowest / 3));
+  EXPECT_EQ(first.reductions[0].max_step, 100 + 10 * static_cast<long>(highest / 3));
+  EXPECT_EQ(first.reductions[0].min_place, reference[lowest + 1]);
+  EXPECT_EQ(first.reductions[0].max_place, reference[highest + 1]);
   EXPECT_NEAR(first.reductions[0].sum, sum, 1e-12 * std::abs(sum));
   EXPECT_EQ(first.reductions[0].seen, 91);
   EXPECT_EQ(second.comparisons[0].seen, 91);

@@ -1,0 +1,158 @@
+#include "core/simulation/contact_list.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/forces/end_stops.h"
+#include "core/model/contact_of.h"
+#include "core/numerics/bracketed_root.h"
+#include "core/simulation/channels.h"
+
+namespace linkstudy {
+namespace {
+
+constexpr int kParts = 4;  // of a span, between which the largest force is looked for
+
+// Where the depth passes zero, as a part of the span.
+double crossing_of(const NearnessSpan& span) {
+  const double first = span.begin.depth, last = span.end.depth;
+  if (first == 0.0 || (first > 0.0) == (last > 0.0)) return 0.0;
+  return bracket_root([&](double s) { return span.at(s).depth; }, 0.0, 1.0, first, last).second;
+}
+
+NearnessSpan part_of(const NearnessSpan& span, double first, double last) {
+  return {span.time_at(first), span.time_at(last), span.at(first), span.at(last)};
+}
+
+double deepest_of(const NearnessSpan& span) {
+  double depth = std::max({0.0, span.begin.depth, span.end.depth});
+  if (!(span.begin.rate > 0.0 && span.end.rate < 0.0)) return depth;
+  const auto rate = [&](double s) { return span.at(s).rate; };
+  const double turn = bracket_root(rate, 0.0, 1.0, span.begin.rate, span.end.rate).first;
+  return std::max(depth, span.at(turn).depth);
+}
+
+std::string joint_of_stop(const Mechanism& m, const StopStructure& stop) {
+  for (std::size_t b = 1; b < m.bodies.size(); ++b) {
+    const Body& body = m.bodies[b];
+    const int i = stop.v - body.v_begin;
+    if (i < 0 || i >= body.v_count) continue;
+    const std::string name = "joint." + m.joint_names[b];
+    return body.v_count > 1 ? name + "." + std::to_string(i) : name;
+  }
+  return {};
+}
+
+}  // namespace
+
+std::vector<ContactPlace> contact_places(const Mechanism& m) {
+  std::vector<ContactPlace> places(m.contacts.size());
+  for (const ClearanceStructure& c : m.clearances) {
+    const std::string owner = "closure." + m.closure_names[static_cast<std::size_t>(c.closure)];
+    for (int i = c.contact_begin; i < c.contact_end; ++i) {
+      places[static_cast<std::size_t>(i)] = {owner, std::to_string(i - c.contact_begin)};
+    }
+  }
+  for (const StopStructure& stop : m.stops) {
+    places[static_cast<std::size_t>(stop.contact)] = {
+        joint_of_stop(m, stop), stop.is_high ? "high" : "low", is_rotation(m, stop.v)};
+  }
+  return places;
+}
+
+ContactRecorder::ContactRecorder(const Mechanism& mechanism, const Parameters<double>& parameters,
+                                 ContactList& list)
+    : m_(mechanism), p_(parameters), list_(list), current_(mechanism.contacts.size()) {
+  for (const ContactPlace& place : contact_places(mechanism)) turns_.push_back(place.turns);
+  list_.records.reserve(list_.most);  // none while stepping
+}
+
+void ContactRecorder::step(const ContactStep& s) {
+  const NearnessSpan span{s.t0, s.t1, {s.depth0, s.rate0}, {s.depth1, s.rate1}};
+  if (!s.touched && s.depth0 > 0.0) {
+    start_inside(s.contact);
+    follow(s.contact, span, s.approach);
+    return;
+  }
+  const double crossing = s.touched && s.touches ? 0.0 : crossing_of(span);
+  const Nearness there = span.at(crossing);
+  if (!s.touched) begin(s.contact, span.time_at(crossing), there.rate);
+  if (s.touches) return follow(s.contact, part_of(span, crossing, 1.0), s.approach);
+  follow(s.contact, part_of(span, 0.0, crossing), s.approach);
+  end(s.contact, span.time_at(crossing), -there.rate);
+}
+
+void ContactRecorder::start_inside(int contact) {
+  open(contact, {});
+}
+
+void ContactRecorder::begin(int contact, double t, double speed) {
+  ContactRecord record;
+  record.begin = t;
+  record.approach = std::max(speed, 0.0);
+  open(contact, record);
+}
+
+void ContactRecorder::open(int contact, ContactRecord record) {
+  record.contact = contact;
+  record.number = begun_++;
+  if (list_.records.size() < list_.most) {
+    list_.records.push_back(record);
+  } else {
+    ++list_.unlisted;
+  }
+  at(current_, contact) = record;
+}
+
+double ContactRecorder::force(int contact, const Nearness& now, double approach) const {
+  const ContactStructure& c = at(m_.contacts, contact);
+  if (c.stop >= 0) {
+    return stop_force(at(m_.stops, c.stop), at(p_.stops, c.stop), now.depth, now.rate, approach)
+        .normal;
+  }
+  const ClearanceStructure& clearance = at(m_.clearances, c.clearance);
+  return normal_contact_force(at(p_.clearances, c.clearance).contact, clearance.hertz, now.depth,
+                              now.rate, approach, clearance.approach)
+      .normal;
+}
+
+// The largest force lies near the largest of some, where the parabola through it and its
+// neighbours has its vertex.
+void ContactRecorder::follow(int contact, const NearnessSpan& span, double approach) {
+  const auto force_at = [&](double s) { return force(contact, span.at(s), approach); };
+  std::array<double, kParts + 1> forces{};
+  for (int k = 0; k <= kParts; ++k) at(forces, k) = force_at(k / static_cast<double>(kParts));
+  const auto largest = std::ranges::max_element(forces);
+  const int middle = std::clamp(static_cast<int>(largest - forces.begin()), 1, kParts - 1);
+  const double before = at(forces, middle - 1), after = at(forces, middle + 1);
+  const double bend = before - 2.0 * at(forces, middle) + after;
+  ContactRecord& record = at(current_, contact);
+  record.force = std::max(record.force, *largest);
+  if (bend < 0.0) {
+    const double vertex = (middle + 0.5 * (before - after) / bend) / kParts;
+    record.force = std::max(record.force, force_at(std::clamp(vertex, 0.0, 1.0)));
+  }
+  record.depth = std::max(record.depth, deepest_of(span));
+  note(record);
+}
+
+void ContactRecorder::end(int contact, double t, double speed) {
+  ContactRecord& record = at(current_, contact);
+  record.end = t;
+  record.separation = std::max(speed, 0.0);
+  note(record);
+}
+
+void ContactRecorder::note(const ContactRecord& record) {
+  const auto number = static_cast<std::size_t>(record.number);
+  if (number < list_.records.size()) list_.records[number] = record;
+  auto& hardest = list_.hardest[turns_[static_cast<std::size_t>(record.contact)] ? 1 : 0];
+  const bool is_it = hardest && hardest->number == record.number;
+  if (is_it || !hardest || record.force > hardest->force) hardest = record;
+}
+
+void record_contact(ContactRecorder& recorder, const ContactStep& step) {
+  recorder.step(step);
+}
+
+}  // namespace linkstudy
