@@ -11,7 +11,8 @@
 namespace linkstudy {
 namespace {
 
-constexpr int kParts = 4;  // of a span, between which the largest force is looked for
+constexpr int kParts = 4;          // of a span, between which the largest force is looked for
+constexpr double kFarBelow = 0.5;  // of the largest so far: spans with less at both ends are not
 
 // Where the depth passes zero, as a part of the span.
 double crossing_of(const NearnessSpan& span) {
@@ -119,20 +120,22 @@ double ContactRecorder::force(int contact, const Nearness& now, double approach)
 // The largest force lies near the largest of some, where the parabola through it and its
 // neighbours has its vertex.
 void ContactRecorder::follow(int contact, const NearnessSpan& span, double approach) {
+  ContactRecord& record = at(current_, contact);
+  record.depth = std::max(record.depth, deepest_of(span));
   const auto force_at = [&](double s) { return force(contact, span.at(s), approach); };
-  std::array<double, kParts + 1> forces{};
-  for (int k = 0; k <= kParts; ++k) at(forces, k) = force_at(k / static_cast<double>(kParts));
+  std::array<double, kParts + 1> forces{force_at(0.0)};
+  forces.back() = force_at(1.0);
+  if (std::max(forces.front(), forces.back()) < kFarBelow * record.force) return note(record);
+  for (int k = 1; k < kParts; ++k) at(forces, k) = force_at(k / static_cast<double>(kParts));
   const auto largest = std::ranges::max_element(forces);
   const int middle = std::clamp(static_cast<int>(largest - forces.begin()), 1, kParts - 1);
   const double before = at(forces, middle - 1), after = at(forces, middle + 1);
   const double bend = before - 2.0 * at(forces, middle) + after;
-  ContactRecord& record = at(current_, contact);
   record.force = std::max(record.force, *largest);
   if (bend < 0.0) {
     const double vertex = (middle + 0.5 * (before - after) / bend) / kParts;
     record.force = std::max(record.force, force_at(std::clamp(vertex, 0.0, 1.0)));
   }
-  record.depth = std::max(record.depth, deepest_of(span));
   note(record);
 }
 
