@@ -80,7 +80,7 @@ class LaneObservers {
   static void compare(const Comparison& form, LaneComparison& s, long step, Of&& of) {
     if (!form.sampling.hits(step)) return;
     const std::size_t n = s.max_error.size();
-    const double* reference = form.reference + s.seen * n;
+    const double* reference = form.reference + (form.is_constant ? std::size_t{0} : s.seen * n);
     const Real weight(time_weight(form.sampling, {}, step));
     Real vector_square(0.0);
     for (std::size_t i = 0; i < n; ++i) {

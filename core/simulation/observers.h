@@ -61,8 +61,9 @@ struct Series {
 struct Comparison {
   std::vector<Channel> channels;
   Sampling sampling;
-  const double* reference = nullptr;  // (samples, channels)
-  std::vector<double> sign;           // (channels) factor of the reference, +1 or -1
+  const double* reference = nullptr;  // (samples, channels), or one row for all samples:
+  bool is_constant = false;
+  std::vector<double> sign;  // (channels) factor of the reference, +1 or -1
   long seen = 0;
   std::vector<double> max_error;     // (channels)
   std::vector<double> square_error;  // (channels) weighted sum

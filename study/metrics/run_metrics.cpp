@@ -10,6 +10,7 @@
 namespace linkstudy {
 namespace {
 
+constexpr double kShut[] = {0.0, 0.0, 0.0};  // what gaps are compared with
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
@@ -62,7 +63,7 @@ std::shared_ptr<const RunMetrics::Compared> RunMetrics::compare(const StudyInput
                                                                 const StepGrid& grid,
                                                                 const ReferenceRecord* reference,
                                                                 const MeasuredRun& measured) {
-  Compared compared{grid, reference, measured.reference, signals.match, {}, {}, {}};
+  Compared compared{grid, reference, measured.reference, signals.match, {}, {}};
   for (std::size_t i = 0; i < input.match.size(); ++i) {
     if (measured.reference) {
       compared.measured_matches.emplace_back(*measured.reference, i, grid);
@@ -73,9 +74,6 @@ std::shared_ptr<const RunMetrics::Compared> RunMetrics::compare(const StudyInput
     compared.matches.emplace_back(match, signals.match[i], grid, reference->match[i],
                                   reference->grid);
   }
-  if (!signals.gaps.empty()) {
-    compared.zeros.assign(static_cast<std::size_t>(grid.count + 1) * 3, 0.0);
-  }
   return std::make_shared<const Compared>(std::move(compared));
 }
 
@@ -84,7 +82,7 @@ bool RunMetrics::compares_alike(const StudySignals& signals, const StepGrid& gri
                                 const MeasuredRun& measured) const {
   const Compared& own = *compared_;
   return own.grid.count == grid.count && own.grid.h == grid.h && own.reference == reference &&
-         own.measured == measured.reference && own.zeros.empty() == signals.gaps.empty() &&
+         own.measured == measured.reference &&
          std::ranges::equal(own.channels, signals.match, same_channels);
 }
 
@@ -93,7 +91,8 @@ void RunMetrics::add_gaps(const StudySignals& signals) {
     Comparison comparison;
     comparison.channels = gap;
     comparison.sampling = {0, grid_.count, 1};
-    comparison.reference = compared_->zeros.data();
+    comparison.reference = kShut;
+    comparison.is_constant = true;
     comparison.sign.assign(gap.size(), 1.0);
     observers_.comparisons.push_back(std::move(comparison));
   }

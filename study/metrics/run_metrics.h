@@ -55,7 +55,6 @@ class RunMetrics {
     std::vector<std::vector<Channel>> channels;  // by match
     std::deque<MatchError> matches;              // with a run
     std::deque<MeasuredMatch> measured_matches;  // with data
-    std::vector<double> zeros;                   // what gaps are compared with
   };
 
   static std::shared_ptr<const Compared> compare(const StudyInput& input,

@@ -456,4 +456,11 @@ TEST_F(Kinematics, Refuses_wrong_options) {
 }
 
 }  // namespace
+TEST_F(Kinematics, Says_that_it_does_not_know_rods) {
+  const Ended ended = run("kinematics " + shipped("rssr_rod"));
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_THAT(ended.err, HasSubstr("rssr_rod.toml:56:8: error: closure 'C': kinematics does not "
+                                   "know a rod"));
+}
+
 }  // namespace linkstudy::testing::kinematics_test

@@ -91,6 +91,19 @@ TEST_F(StartedModel, Begins_where_the_run_began) {
   EXPECT_THAT(again.out, Not(HasSubstr("moved")));
 }
 
+// The angles and rates of a bent link too: here statics bends it, and the run goes on from there.
+TEST_F(StartedModel, Bends_flexible_links_as_the_run_began) {
+  const std::string end = " -s simulation.end_time=0.01 ";
+  const Ended first = run("simulate " + shipped("rsup_flexible") + end +
+                          "-s simulation.start=\"equilibrium\" --write-start started.toml --csv "
+                          "first.csv");
+  ASSERT_EQ(first.code, 0) << first.err;
+  EXPECT_THAT(read_text(path("started.toml")), HasSubstr("velocity = "));
+  const Ended again = run("simulate started.toml -s simulation.start=\"given\" --csv again.csv");
+  ASSERT_EQ(again.code, 0) << again.err;
+  EXPECT_EQ(read_text(path("again.csv")), read_text(path("first.csv")));
+}
+
 TEST_F(StartedModel, Never_takes_the_place_of_its_model) {
   write("rod.toml", kRod);
   const Ended ended = run("statics rod.toml --write-start rod.toml");

@@ -281,4 +281,21 @@ TEST(Expansion, Mass_matrix_and_forces_on_the_joints_of_rigid_links_are_kept) {
   }
 }
 
+TEST(RigidFiniteElements, Begin_bent_and_moving_as_they_are_told) {
+  Linkage linkage = cantilever({}, 2);
+  FlexibleBeam& beam = *linkage.links[0].flexible;
+  beam.position = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6};
+  beam.velocity = {1, 2, 3, 4, 5, 6};
+  ASSERT_TRUE(check(linkage).empty());
+  const Linkage expanded = expand_flexible_links(linkage);
+  EXPECT_THAT(joint_named(expanded, "beam_sde1").position, ElementsAre(0.1, 0.2, 0.3));
+  EXPECT_THAT(joint_named(expanded, "beam_sde2").position, ElementsAre(0.4, 0.5, 0.6));
+  EXPECT_THAT(joint_named(expanded, "beam_sde1").velocity, ElementsAre(1, 2, 3));
+  EXPECT_THAT(joint_named(expanded, "beam_sde2").velocity, ElementsAre(4, 5, 6));
+  beam.segments = 3;
+  ASSERT_EQ(check(linkage).size(), 2u);
+  EXPECT_EQ(check(linkage)[0].path, "link.beam.flexible.initial.position");
+  EXPECT_EQ(check(linkage)[1].path, "link.beam.flexible.initial.velocity");
+}
+
 }  // namespace linkstudy::testing::rigid_finite_elements_test
