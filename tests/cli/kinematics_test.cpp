@@ -455,12 +455,13 @@ TEST_F(Kinematics, Refuses_wrong_options) {
   EXPECT_THAT(left_behind(), IsEmpty());
 }
 
-}  // namespace
 TEST_F(Kinematics, Says_that_it_does_not_know_rods) {
-  const Ended ended = run("kinematics " + shipped("rssr_rod"));
+  const Ended ended = analyse("rssr_rod");
   EXPECT_EQ(ended.code, 2);
   EXPECT_THAT(ended.err, HasSubstr("rssr_rod.toml:56:8: error: closure 'C': kinematics does not "
                                    "know a rod"));
 }
+
+}  // namespace
 
 }  // namespace linkstudy::testing::kinematics_test

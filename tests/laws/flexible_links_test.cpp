@@ -30,7 +30,9 @@ Linkage with_flexible_coupler(Linkage linkage, double bending, double retardatio
                                            .second_moment_y = bending / young,
                                            .second_moment_z = bending / young,
                                            .torsion_constant = bending / 10.0 / young,
-                                           .retardation = retardation};
+                                           .retardation = retardation,
+                                           .position = {},
+                                           .velocity = {}};
   return expand_flexible_links(linkage);
 }
 

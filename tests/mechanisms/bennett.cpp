@@ -11,7 +11,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-Link rod(const std::string& name, double mass, double length) {
+Link bar(const std::string& name, double mass, double length) {
   const double J = mass * length * length / 12.0;
   return {name, mass, Vector3d(length / 2, 0, 0), Vector3d(0.01 * J, J, J).asDiagonal()};
 }
@@ -43,7 +43,7 @@ Linkage bennett(const BennettGeometry& g) {
   Linkage linkage;
   linkage.name = "bennett";
   linkage.gravity = Vector3d(0, -9.81, 0);
-  linkage.links = {rod("crank", 1.0, g.a), rod("coupler", 1.5, b), rod("follower", 1.0, -g.a)};
+  linkage.links = {bar("crank", 1.0, g.a), bar("coupler", 1.5, b), bar("follower", 1.0, -g.a)};
   linkage.joints = {pivot_at("A", kGround, "crank", {}, g.crank, g.rate),
                     pivot_at("B", "crank", "coupler", along(g.a, g.alpha), second, second_rate),
                     pivot_at("D", kGround, "follower", back(b, g.beta), second, second_rate)};

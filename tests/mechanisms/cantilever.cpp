@@ -26,7 +26,9 @@ Link beam_link(const std::string& name, const BeamData& data, int segments,
                                .second_moment_y = data.second_moment_y,
                                .second_moment_z = data.second_moment_z,
                                .torsion_constant = data.torsion_constant,
-                               .retardation = data.retardation};
+                               .retardation = data.retardation,
+                               .position = {},
+                               .velocity = {}};
   return link;
 }
 

@@ -140,7 +140,7 @@ std::vector<Linkage> loose_linkages() {
   }
   Linkage rubbing = rsrrp();
   for (Joint& joint : rubbing.joints) {
-    joint.friction = JointFriction{table_1_friction(), 0.01, 0.05, 3.0};
+    joint.friction = JointFriction{table_1_friction(), FrictionLoad::reaction, 0.01, 0.05, 3.0};
     joint.stiffness = {2.0};
     joint.damping = {0.1};
     joint.velocity = {0.0};

@@ -46,7 +46,9 @@ Linkage crank_with_friction() {
   crank.velocity = {20.0};
   crank.hold = true;
   crank.friction =
-      JointFriction{{.mu_s = 0.15, .mu_k = 0.1, .v_s = 0.01, .sigma0 = 1e5, .sigma1 = 100.0}, 0.01};
+      JointFriction{{.mu_s = 0.15, .mu_k = 0.1, .v_s = 0.01, .sigma0 = 1e5, .sigma1 = 100.0},
+                    FrictionLoad::reaction,
+                    0.01};
   return linkage;
 }
 

@@ -40,7 +40,7 @@ Joint rubbing_joint(JointType type) {
   joint.type = type;
   joint.parent = kGround;
   joint.child = "crank";
-  joint.friction = JointFriction{document_friction(), 10e-3, 30e-3, 5.0};
+  joint.friction = JointFriction{document_friction(), FrictionLoad::reaction, 10e-3, 30e-3, 5.0};
   return joint;
 }
 

@@ -37,7 +37,9 @@ Link steel_rod(const Vector3d& direction = Vector3d::UnitY()) {
                                .shear = 8e10,
                                .second_moment_y = 7.85e-9,
                                .second_moment_z = 7.85e-9,
-                               .torsion_constant = 1.57e-8};
+                               .torsion_constant = 1.57e-8,
+                               .position = {},
+                               .velocity = {}};
   return link;
 }
 
