@@ -68,8 +68,7 @@ int run_simulate(const CommandLine& line) {
   if (!outcome.warning.empty()) {
     print_err(fmt::format("linkstudy: warning: {}\n", outcome.warning));
   }
-  const std::string hardest =
-      hardest_contact_text(preparation.model.mechanism, observers.contacts);
+  const std::string hardest = hardest_contact_text(preparation.model.mechanism, observers.contacts);
   print_text(line, outcome_text(outcome, input.options, hardest, wall_s));
   if (line.json) print_out(outcome_json(preparation, &outcome, wall_s) + "\n");
   return outcome.cause == Cause::ok ? kDone : kTooManyFailed;

@@ -20,19 +20,23 @@ Tree numbers_tree(const std::vector<double>& values, int begin, int count) {
   return list;
 }
 
-// The angles of a flexible link's elements are those of joints of its own.
-void start_beam(const Link& link, const Model& started, Tree& tree) {
+// The angles of a flexible link's elements are those of joints of its own; a link that is taken as
+// rigid has none.
+void start_beam(const std::string& link, const Model& started, Tree& beam) {
   const Mechanism& m = started.mechanism;
-  Tree initial = Tree::make_table();
-  Tree& position = initial.set("position", Tree::make_array());
-  Tree& velocity = initial.set("velocity", Tree::make_array());
-  for (int k = 1; k <= link.flexible->segments; ++k) {
-    const auto name = std::ranges::find(m.joint_names, element_joint_name(link.name, k));
+  Tree position = Tree::make_array(), velocity = Tree::make_array();
+  for (int k = 1;; ++k) {
+    const auto name = std::ranges::find(m.joint_names, element_joint_name(link, k));
+    if (name == m.joint_names.end()) break;
     const Body& body = m.bodies[static_cast<std::size_t>(name - m.joint_names.begin())];
     append_numbers(started.start.q, body.q_begin, body.q_count, position);
     append_numbers(started.start.v, body.v_begin, body.v_count, velocity);
   }
-  tree.find("flexible")->set("initial", std::move(initial));
+  if (position.items.empty()) return;
+  Tree initial = Tree::make_table();
+  initial.set("position", std::move(position));
+  initial.set("velocity", std::move(velocity));
+  beam.set("initial", std::move(initial));
 }
 
 }  // namespace
@@ -49,11 +53,9 @@ std::string started_model_text(const ModelInput& input, const Model& started) {
     start.set("position", numbers_tree(started.start.q, body.q_begin, body.q_count));
     start.set("velocity", numbers_tree(started.start.v, body.v_begin, body.v_count));
   }
-  for (const Link& link : input.linkage.links) {
-    if (!link.flexible) continue;
-    for (Tree& tree : model.find("link")->items) {
-      if (tree.find("name")->text == link.name) start_beam(link, started, tree);
-    }
+  for (Tree& link : model.find("link")->items) {
+    Tree* beam = link.find("flexible");
+    if (beam != nullptr) start_beam(link.find("name")->text, started, *beam);
   }
   return write_toml(model);
 }

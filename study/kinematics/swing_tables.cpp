@@ -37,10 +37,13 @@ std::string end_text(const KinematicsResult& result, const SwingEnd& end, bool i
 
 std::string swing_text(const KinematicsResult& result, const Swing& swing) {
   if (swing.motion == JointMotion::turns) return fmt::format("{} turns through", swing.coordinate);
-  return fmt::format("{} by {:.6g} {}, from {} to {}", swing.coordinate,
-                     shown_value(swing.greatest.value - swing.least.value, swing.is_angle),
-                     shown_unit(swing.is_angle), end_text(result, swing.least, swing.is_angle),
-                     end_text(result, swing.greatest, swing.is_angle));
+  const Drive& drive = result.course->drives.front();
+  const auto shown = [&](double value) { return shown_value(value, swing.is_angle); };
+  return fmt::format("{} by {:.6g}, {:.6g} to {:.6g} {} at {} = {:.6g} and {:.6g} {}",
+                     swing.coordinate, shown(swing.greatest.value - swing.least.value),
+                     shown(swing.least.value), shown(swing.greatest.value),
+                     shown_unit(swing.is_angle), drive.name, drive_at(result, swing.least),
+                     drive_at(result, swing.greatest), shown_unit(drive.turns));
 }
 
 SwingJson end_json(const KinematicsResult& result, const SwingEnd& end, bool is_angle) {

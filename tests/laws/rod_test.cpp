@@ -65,7 +65,8 @@ Samples run_of(ClosureModel model, double step) {
 }
 
 // x = r cos wt, y = r sin wt, z = -h; the rod pulls with m g / cos(tilt) along itself.
-void expect_circle(const Samples& s, double place, double force, double gap) {
+// `first`: the row from which forces are looked at.
+void expect_circle(const Samples& s, double place, double force, double gap, Eigen::Index first) {
   ASSERT_EQ(s.outcome.cause, Cause::ok) << s.outcome.message;
   const double r = kLength * std::sin(kTilt), h = kLength * std::cos(kTilt);
   const double rate = std::sqrt(kGravity / h);
@@ -74,6 +75,7 @@ void expect_circle(const Samples& s, double place, double force, double gap) {
     EXPECT_NEAR(s.values(i, 1), r * std::cos(angle), place);
     EXPECT_NEAR(s.values(i, 2), r * std::sin(angle), place);
     EXPECT_NEAR(s.values(i, 3), -h, place);
+    if (i < first) continue;
     // On ground, at the first end: towards the bob.
     const double across = kMass * kGravity * std::tan(kTilt);
     EXPECT_NEAR(s.values(i, 4), across * std::cos(angle), force);
@@ -87,6 +89,15 @@ void expect_circle(const Samples& s, double place, double force, double gap) {
 constexpr double kCrank = 0.1, kRocker = 0.3, kBase = 0.4, kCoupler = 0.35;  // m
 constexpr double kRockerInertia = 0.02;                                      // about its pivot
 
+// Angle of the rocker from that of the crank ([McCarthy] loop equation of the four-bar).
+double rocker_angle(double crank) {
+  const double x = kCrank * std::cos(crank) - kBase, y = kCrank * std::sin(crank);
+  const double far = std::hypot(x, y);
+  const double beside =
+      std::acos((far * far + kRocker * kRocker - kCoupler * kCoupler) / (2 * far * kRocker));
+  return std::atan2(y, x) - beside;
+}
+
 // A crank-rocker in the plane whose coupler is a rod; the crank turns evenly.
 Linkage crank_rocker(ClosureModel model) {
   Linkage linkage;
@@ -96,7 +107,7 @@ Linkage crank_rocker(ClosureModel model) {
   linkage.gravity = Vector3d::Zero();
   linkage.joints = {joint_at("A", JointType::revolute, kGround, "crank", {}),
                     joint_at("D", JointType::revolute, kGround, "rocker", at_place({kBase, 0, 0}))};
-  linkage.joints[1].position = {1.7};
+  linkage.joints[1].position = {rocker_angle(0.0)};
   linkage.closures = {
       rod_between("crank", {kCrank, 0, 0}, "rocker", {kRocker, 0, 0}, kCoupler, model)};
   Motion motion;
@@ -108,15 +119,6 @@ Linkage crank_rocker(ClosureModel model) {
   return linkage;
 }
 
-// Angle of the rocker from that of the crank ([McCarthy] loop equation of the four-bar).
-double rocker_angle(double crank) {
-  const double x = kCrank * std::cos(crank) - kBase, y = kCrank * std::sin(crank);
-  const double far = std::hypot(x, y);
-  const double beside =
-      std::acos((far * far + kRocker * kRocker - kCoupler * kCoupler) / (2 * far * kRocker));
-  return std::atan2(y, x) - beside;
-}
-
 double wrapped(double angle) {
   return std::remainder(angle, 2 * kPi);
 }
@@ -124,12 +126,12 @@ double wrapped(double angle) {
 }  // namespace
 
 TEST(Rod, Carries_a_conical_pendulum) {
-  expect_circle(run_of(ClosureModel::cut, 1e-3), 1e-9, 1e-8, 1e-9);
+  expect_circle(run_of(ClosureModel::cut, 1e-3), 1e-9, 1e-8, 1e-9, 0);
 }
 
-// As a spring it is longer by m g / (c cos tilt) = 7.5e-8 m, and swings about that.
+// As a spring it is longer by m g / (c cos tilt) = 7.5e-8 m: at the start not yet.
 TEST(Rod, As_a_spring_does_so_but_for_its_stretch) {
-  expect_circle(run_of(ClosureModel::sde, 2e-5), 1e-6, 1e-1, 2e-7);
+  expect_circle(run_of(ClosureModel::sde, 2e-5), 1e-6, 1e-1, 2e-7, 1);
 }
 
 TEST(Rod, Is_the_coupler_of_a_crank_rocker) {

@@ -42,7 +42,7 @@ def check_study(path, engine):
         assert math.isnan(error.sel(evaluation=2)) and error.sel(evaluation=3) == 1 / 3.1
         status = study.status
         assert status.dtype == np.uint8 and status.values.tolist() == [0, 0, 1, 0]
-        assert np.asarray(status.attrs["flag_values"]).tolist() == list(range(15))
+        assert np.asarray(status.attrs["flag_values"]).tolist() == list(range(16))
         assert status.attrs["flag_meanings"] == CAUSES
         assert study.message.values.tolist() == [
             "", "", "state is not finite at t = 0.25 s, \u03c9 h = 3.1", ""]
