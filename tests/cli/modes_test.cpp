@@ -155,4 +155,40 @@ TEST_F(Motions, Are_channels_and_a_drive_of_kinematics) {
               Not(HasSubstr("motion.crank")));
 }
 
+// The effort of the driven crank, taken as measured, tells two masses.
+TEST_F(Motions, Tell_by_their_effort_what_they_move) {
+  const std::string model = shipped("quick_return");
+  ASSERT_EQ(run("simulate " + model +
+                " -s simulation.end_time=1 --signals motion.crank.effort "
+                "--csv effort.csv")
+                .code,
+            0);
+  std::istringstream lines(read_text(path("effort.csv")));
+  std::string data, line;
+  for (int i = 0; std::getline(lines, line); ++i) {
+    if (i > 0) data += (i == 1 ? "t [s],M [N m]" : line) + "\n";
+  }
+  write("effort.csv", data);
+  write("masses.toml", "format = 1\nkind = \"calibrate\"\nmodel = \"" + model + R"("
+base = { set = { "simulation.end_time" = 1.0 } }
+fit = { starts = 2 }
+[[parameter]]
+path = "link.ram.mass"
+range = { log = [2.0, 50.0] }
+[[parameter]]
+path = "link.rocker.mass"
+range = { log = [1.0, 20.0] }
+[[experiment]]
+name = "turning"
+file = "effort.csv"
+sigma = { "motion.crank.effort" = "0.05 N m" }
+columns = { time = "t [s]", "motion.crank.effort" = "M [N m]" }
+)");
+  const Ended fitted = run("calibrate masses.toml -o masses --json");
+  ASSERT_EQ(fitted.code, 0) << fitted.err;
+  const json table = json::parse(run("export masses --table calibration --format json").out)["rows"];
+  EXPECT_NEAR(table[0]["value"].get<double>(), 10.0, 1e-9);
+  EXPECT_NEAR(table[1]["value"].get<double>(), 4.0, 1e-9);
+}
+
 }  // namespace linkstudy::testing::modes_test

@@ -9,6 +9,7 @@
 #include "core/simulation/prepare.h"
 #include "core/topology/check_linkage.h"
 #include "tests/mechanisms/joint_at.h"
+#include "tests/mechanisms/rsup.h"
 #include "tests/support/engine_probe.h"
 #include "tests/support/near.h"
 
@@ -176,6 +177,41 @@ TEST(ConstantFriction, Holds_what_it_can) {
   linkage.links[0].center_of_mass = {0.015, 0, 0};  // 0.22 N m, against 0.3 N m
   const Eigen::VectorXd v = rates_after(linkage, 0.1);
   EXPECT_NEAR(v[0], 0.0, 1e-3);  // what is left of its shaking
+}
+
+// In all joints of a linkage with a flexible coupler and, cut at R, each kind of closure.
+TEST(ConstantFriction, Beside_closures_of_every_kind_and_bending_keeps_the_ledger) {
+  for (const ClosureModel model : {ClosureModel::cut, ClosureModel::sde, ClosureModel::clearance}) {
+    const bool is_loose = model == ClosureModel::clearance;
+    Linkage linkage =
+        rsup({.clearance = is_loose ? std::optional(ClearanceKind::planar) : std::nullopt,
+              .segments = 2});
+    Closure& closure = linkage.closures[0];
+    closure.model = model;
+    if (model == ClosureModel::sde) {
+      closure.sde.axes = SdeAxes::first;
+      closure.sde.stiffness = {1e6, 1e6, 1e6, 0, 1e4, 1e4};
+      closure.sde.damping = {100, 100, 100, 0, 1, 1};
+    }
+    int braked_joints = 0;
+    for (Joint& joint : linkage.joints) {
+      if (joint.elastic) continue;
+      joint.friction = braked();
+      joint.friction->law.sigma0 = 1e4;
+      if (joint.type == JointType::prismatic) joint.friction->radius = 0.0;
+      ++braked_joints;
+    }
+    EXPECT_GE(braked_joints, 4);
+    const SimulationOptions options = steps_of(is_loose ? 2e-6 : 1e-5, 0.6, 0.01);
+    const Preparation start = prepare(linkage, options);
+    ASSERT_EQ(start.cause, Cause::ok) << start.message;
+    const Samples s = run(start.model, options,
+                          {"energy.residual", "energy.supplied", "energy.dissipated", "joint.A.v"});
+    ASSERT_EQ(s.outcome.cause, Cause::ok) << s.outcome.message;
+    const double moved = s.values.col(1).maxCoeff() + s.values.col(2).maxCoeff();
+    EXPECT_GT(s.values.col(2).maxCoeff(), 0.01);
+    EXPECT_LT(s.values.col(0).cwiseAbs().maxCoeff(), 1e-7 * moved) << static_cast<int>(model);
+  }
 }
 
 TEST(ConstantFriction, Asks_for_what_it_needs) {

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/flexible/rigid_finite_elements.h"
 #include "core/kinematics/mobility.h"
+#include "core/simulation/prepare.h"
 #include "core/topology/check_linkage.h"
 #include "tests/mechanisms/joint_at.h"
 #include "tests/support/engine_probe.h"
@@ -211,6 +213,42 @@ TEST(Rod, Of_a_table_on_four_shares_its_weight) {
     const Vector3d force = engine.vector("closure.rod" + std::to_string(i) + ".force");
     EXPECT_NEAR(force.z(), -2.0 * kGravity / 4, 1e-9);
     EXPECT_NEAR(force.x(), 0.0, 1e-12);
+  }
+}
+
+// On a bending rocker; its ledger closes, cut and as a spring, and it moves nearly as a rigid one.
+TEST(Rod, Holds_a_flexible_link) {
+  Linkage rigid = crank_rocker(ClosureModel::cut);
+  rigid.links[1].center_of_mass = {kRocker / 2, 0, 0};
+  rigid.links[1].inertia = Vector3d(1e-4, 7.6e-3, 7.6e-3).asDiagonal();  // > m l^2 / 12
+  const std::vector<std::string> names = {"joint.D.q", "energy.residual", "energy.kinetic"};
+  const Samples stiff = run(compile(rigid), steps_of(1e-5, 0.5, 0.05), names);
+  for (const ClosureModel model : {ClosureModel::cut, ClosureModel::sde}) {
+    Linkage bending = rigid;
+    Closure& rod = bending.closures[0];
+    rod.model = model;
+    rod.stabilization =
+        model == ClosureModel::cut ? Stabilization::projection : Stabilization::none;
+    const double section = 5e-9;  // m^4: a bar of 16 mm
+    bending.links[1].flexible = FlexibleBeam{.segments = 2,
+                                             .begin = Vector3d::Zero(),
+                                             .end = {kRocker, 0, 0},
+                                             .across = Vector3d::UnitY(),
+                                             .young = 2e11,
+                                             .shear = 8e10,
+                                             .second_moment_y = section,
+                                             .second_moment_z = section,
+                                             .torsion_constant = 2 * section,
+                                             .retardation = 1e-5,
+                                             .position = {},
+                                             .velocity = {}};
+    const SimulationOptions options = steps_of(2e-6, 0.5, 0.05);
+    const Preparation start = prepare(expand_flexible_links(bending), options);
+    ASSERT_EQ(start.cause, Cause::ok) << start.message;
+    const Samples s = run(start.model, options, names);
+    ASSERT_EQ(s.outcome.cause, Cause::ok) << s.outcome.message;
+    EXPECT_LT((s.values.col(0) - stiff.values.col(0)).cwiseAbs().maxCoeff(), 2e-3);
+    EXPECT_LT(s.values.col(1).cwiseAbs().maxCoeff(), 1e-8 * s.values.col(2).maxCoeff());
   }
 }
 
