@@ -5,6 +5,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "core/simulation/run_state.h"
+
 namespace linkstudy::testing {
 namespace {
 
@@ -31,7 +33,7 @@ EngineRun::EngineRun(const Model& model, const SimdLevel& level, double step, lo
     : model_(model), kernel_(&find_kernel(level.isa, level.lanes)), step_(step), steps_(steps) {
   y_ = model.start.q;
   y_.insert(y_.end(), model.start.v.begin(), model.start.v.end());
-  y_.insert(y_.end(), static_cast<std::size_t>(model.mechanism.nz) + 2, 0.0);
+  y_.resize(static_cast<std::size_t>(state_size(model.mechanism)), 0.0);
   reference_.assign(3 * (static_cast<std::size_t>(steps) + 1), 1.0);
   observers_.resize(static_cast<std::size_t>(level.lanes));
   for (auto& o : observers_) {

@@ -186,7 +186,8 @@ columns = { time = "t [s]", "motion.crank.effort" = "M [N m]" }
 )");
   const Ended fitted = run("calibrate masses.toml -o masses --json");
   ASSERT_EQ(fitted.code, 0) << fitted.err;
-  const json table = json::parse(run("export masses --table calibration --format json").out)["rows"];
+  const json table =
+      json::parse(run("export masses --table calibration --format json").out)["rows"];
   EXPECT_NEAR(table[0]["value"].get<double>(), 10.0, 1e-9);
   EXPECT_NEAR(table[1]["value"].get<double>(), 4.0, 1e-9);
 }

@@ -20,7 +20,7 @@ ENGINES = ("h5netcdf", "netcdf4")
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*\Z")
 CAUSES = ("ok diverged energy_blowup step_budget statics_failed assembly_failed constraint_drift "
           "contact_budget timeout cancelled exception rank_lost invalid_point "
-          "step_too_coarse course_blocked")
+          "step_too_coarse course_blocked no_full_turn")
 PARAMETER = "closure_S_sde_stiffness"
 RESPONSE = "error_max_closure_S_force_x"
 
