@@ -8,7 +8,7 @@
 #include "study/cli/verb_table.h"
 #include "study/page/moving_run.h"
 #include "study/report/console.h"
-#include "study/report/findings.h"
+#include "study/record/findings.h"
 #include "study/report/status_report.h"
 #include "study/session/exit_code.h"
 #include "study/store/results_file.h"

@@ -13,7 +13,7 @@
 #include "study/config/model_reader.h"
 #include "study/kinematics/result.h"
 #include "study/record/table.h"
-#include "study/report/findings.h"
+#include "study/record/findings.h"
 
 namespace linkstudy {
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "study/kinematics/result.h"
-#include "study/report/findings.h"
+#include "study/record/findings.h"
 
 namespace linkstudy {
 

@@ -7,7 +7,7 @@
 
 #include "study/kinematics/result.h"
 #include "study/record/table.h"
-#include "study/report/findings.h"
+#include "study/record/findings.h"
 
 namespace linkstudy {
 

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "study/record/counted.h"
-#include "study/report/findings.h"
+#include "study/record/findings.h"
 #include "study/report/write_table.h"
 #include "study/schedule/progress.h"
 #include "study/store/results_tree.h"

@@ -9,7 +9,7 @@
 #include "core/simulation/prepare.h"
 #include "core/simulation/simulate.h"
 #include "study/evaluate/equilibrium.h"
-#include "study/report/findings.h"
+#include "study/record/findings.h"
 
 namespace linkstudy {
 

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "study/report/findings.h"
+#include "study/record/findings.h"
 #include "study/schedule/progress.h"
 
 namespace linkstudy {

@@ -11,7 +11,7 @@
 #include "study/config/model_document.h"
 #include "study/evaluate/equilibrium.h"
 #include "study/kinematics/result.h"
-#include "study/report/findings.h"
+#include "study/record/findings.h"
 #include "study/session/options.h"
 #include "study/store/results.h"
 

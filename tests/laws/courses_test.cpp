@@ -62,15 +62,7 @@ double force_over(const Course& course, double position) {
 }
 
 SimulationOptions adaptive(double end_time, double interval, double tolerance = 1e-11) {
-  SimulationOptions options = steps_of(interval, end_time, interval);
-  options.integrator = Integrator::adaptive;
-  options.relative_tolerance = tolerance;
-  options.absolute_tolerance = 1e-2 * tolerance;
-  return options;
-}
-
-double open_ledger(const SimulationOutcome& outcome) {
-  return outcome.energy_residual_max / outcome.energy_scale;
+  return adaptive_steps_of(interval, end_time, tolerance);
 }
 
 double rate_after(const Course& course, const SimulationOptions& options) {

@@ -42,11 +42,7 @@ Linkage flying_mass(const JointStops& stop) {
 }
 
 SimulationOptions adaptive(double end_time, double interval, double tolerance = 1e-11) {
-  SimulationOptions options = steps_of(interval, end_time, interval);
-  options.integrator = Integrator::adaptive;
-  options.relative_tolerance = tolerance;
-  options.absolute_tolerance = 1e-2 * tolerance;
-  return options;
+  return adaptive_steps_of(interval, end_time, tolerance);
 }
 
 }  // namespace

@@ -50,16 +50,7 @@ PointSpring of_rail() {
 }
 
 SimulationOptions adaptive(double end_time, double interval, double tolerance = 1e-12) {
-  SimulationOptions options = steps_of(interval, end_time, interval);
-  options.integrator = Integrator::adaptive;
-  options.relative_tolerance = tolerance;
-  options.absolute_tolerance = 1e-2 * tolerance;
-  return options;
-}
-
-// The greatest residual of the ledger in parts of the largest energy in it.
-double open_ledger(const SimulationOutcome& outcome) {
-  return outcome.energy_residual_max / outcome.energy_scale;
+  return adaptive_steps_of(interval, end_time, tolerance);
 }
 
 // A spring and damper, a rope, a buffer with a table and an actuator across a linkage, between the

@@ -23,11 +23,7 @@ constexpr double kBearing = 5e-3;  // m
 constexpr double kHalf = 10e-3;    // half of the bearing's length, m
 
 SimulationOptions located(double tolerance, double end_time, double interval) {
-  SimulationOptions options = steps_of(interval, end_time, interval);
-  options.integrator = Integrator::adaptive;
-  options.relative_tolerance = tolerance;
-  options.absolute_tolerance = 1e-2 * tolerance;
-  return options;
+  return adaptive_steps_of(interval, end_time, tolerance);
 }
 
 double steel_stiffness() {

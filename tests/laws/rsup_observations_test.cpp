@@ -31,11 +31,7 @@ Samples observe(const Rsup& options, SimulationOptions simulation) {
 }
 
 SimulationOptions located(double tolerance, double end_time, double interval = kInterval) {
-  SimulationOptions options = steps_of(interval, end_time, interval);
-  options.integrator = Integrator::adaptive;
-  options.relative_tolerance = tolerance;
-  options.absolute_tolerance = 1e-2 * tolerance;
-  return options;
+  return adaptive_steps_of(interval, end_time, tolerance);
 }
 
 // The numbers held below were found with the greatest speed of a contact; what the printed law does

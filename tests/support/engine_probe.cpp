@@ -128,4 +128,16 @@ SimulationOptions steps_of(double step, double end_time, double interval) {
   return options;
 }
 
+SimulationOptions adaptive_steps_of(double interval, double end_time, double tolerance) {
+  SimulationOptions options = steps_of(interval, end_time, interval);
+  options.integrator = Integrator::adaptive;
+  options.relative_tolerance = tolerance;
+  options.absolute_tolerance = 1e-2 * tolerance;
+  return options;
+}
+
+double open_ledger(const SimulationOutcome& outcome) {
+  return outcome.energy_residual_max / outcome.energy_scale;
+}
+
 }  // namespace linkstudy::testing

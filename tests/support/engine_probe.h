@@ -58,5 +58,11 @@ SimulationOutcome run(const Model& model, const SimulationOptions& options);
 
 // Constant steps; output every `interval` seconds (0: at the end only).
 SimulationOptions steps_of(double step, double end_time, double interval = 0.0);
+// Adaptive steps to a relative tolerance, the absolute one a hundredth of it; output every
+// `interval` seconds.
+SimulationOptions adaptive_steps_of(double interval, double end_time, double tolerance);
+
+// The greatest residual of the ledger in parts of the largest energy in it.
+double open_ledger(const SimulationOutcome& outcome);
 
 }  // namespace linkstudy::testing

@@ -1,4 +1,4 @@
-#include "study/report/findings.h"
+#include "study/record/findings.h"
 
 #include <fmt/format.h>
 
