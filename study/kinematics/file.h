@@ -12,8 +12,8 @@
 
 #include "study/config/model_reader.h"
 #include "study/kinematics/result.h"
-#include "study/record/table.h"
 #include "study/record/findings.h"
+#include "study/record/table.h"
 
 namespace linkstudy {
 

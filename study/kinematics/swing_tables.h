@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "study/kinematics/result.h"
-#include "study/record/table.h"
 #include "study/record/findings.h"
+#include "study/record/table.h"
 
 namespace linkstudy {
 
