@@ -1,12 +1,12 @@
 #include "core/dynamics/effective_mass.h"
 
-#include <Eigen/Dense>
 #include <cmath>
 
 #include "core/dynamics/motion.h"
 #include "core/kinematics/assembly.h"
 #include "core/kinematics/closure_jacobian.h"
 #include "core/model/undriven.h"
+#include "core/numerics/dense.h"
 
 namespace linkstudy {
 namespace {
@@ -21,8 +21,8 @@ bool is_rotation(const Row& row) {
 double effective(const MatrixXd& rows, const MatrixXd& mass, const std::vector<int>& moving) {
   if (rows.rows() == 0 || moving.empty()) return 0.0;
   const MatrixXd j = rows(Eigen::all, moving);
-  const MatrixXd a = j * mass(moving, moving).ldlt().solve(j.transpose());
-  const double largest = Eigen::SelfAdjointEigenSolver<MatrixXd>(a).eigenvalues().maxCoeff();
+  const MatrixXd a = j * solve_definite(mass(moving, moving), j.transpose());
+  const double largest = decompose_symmetric(a).values.maxCoeff();
   return largest > 0.0 ? 1.0 / largest : 0.0;
 }
 

@@ -1,6 +1,5 @@
 #include "core/dynamics/modes.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +8,7 @@
 #include "core/dynamics/spectrum.h"
 #include "core/kinematics/assembly.h"
 #include "core/model/undriven.h"
+#include "core/numerics/dense.h"
 #include "core/numerics/rank.h"
 
 namespace linkstudy {
@@ -73,19 +73,19 @@ std::vector<Mode> compute_modes(const Model& model, const State<double>& s) {
   const MatrixXd a = linear_system(model, s);
   if (!a.allFinite()) return {};
   const MatrixXd b = reduced_system(a, p);
-  const Eigen::EigenSolver<MatrixXd> solver(b);
+  const GeneralEigen eigen = decompose_general(b);
   const double zero = kSplit * std::sqrt(std::numeric_limits<double>::epsilon() * b.norm());
   const double extent = compute_extent(model, s).length;
   std::vector<Mode> modes;
   int still = 0;
   for (Eigen::Index i = 0; i < b.rows(); ++i) {
-    const std::complex<double> lambda = solver.eigenvalues()[i];
+    const std::complex<double> lambda = eigen.values[i];
     const bool is_still = std::abs(lambda) <= zero;
     if (!is_still && lambda.imag() < 0.0) continue;
     if (is_still && still++ % 2 != 0) continue;
     const double size = is_still ? 0.0 : std::abs(lambda);
     modes.push_back({is_still ? 0.0 : lambda, size, is_still ? 0.0 : -lambda.real() / size,
-                     normalised(p * solver.eigenvectors().col(i).head(p.cols()), m, extent)});
+                     normalised(p * eigen.vectors.col(i).head(p.cols()), m, extent)});
   }
   std::stable_sort(modes.begin(), modes.end(),
                    [](const Mode& x, const Mode& y) { return x.frequency < y.frequency; });

@@ -1,6 +1,5 @@
 #include "core/dynamics/static_descent.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
@@ -8,6 +7,7 @@
 #include "core/dynamics/static_stability.h"
 #include "core/kinematics/assembly.h"
 #include "core/kinematics/scaled_closures.h"
+#include "core/numerics/dense.h"
 
 namespace linkstudy {
 namespace {
@@ -47,7 +47,7 @@ class Descent {
   VectorXd multipliers(const Balance& b) const {
     if (b.j.rows() == 0) return {};
     const MatrixXd jt = take_columns(b.j, free_).transpose();
-    return jt.completeOrthogonalDecomposition().solve(take_entries(b.tau, free_));
+    return solve_least_squares(jt, take_entries(b.tau, free_));
   }
 
   // Applied forces on the free directions; closures have none there.
@@ -67,11 +67,10 @@ class Descent {
     MatrixXd k = -(f.basis.transpose() * f.measure.asDiagonal() * gradient *
                    f.measure.asDiagonal() * f.basis);
     k = 0.5 * (k + k.transpose()).eval();
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(k);
-    const double floor = std::max(kFloor * solver.eigenvalues().cwiseAbs().maxCoeff(), 1e-12);
-    const VectorXd stiffness = solver.eigenvalues().cwiseAbs().cwiseMax(floor);
-    VectorXd step = solver.eigenvectors() *
-                    (solver.eigenvectors().transpose() * force).cwiseQuotient(stiffness);
+    const SymmetricEigen eigen = decompose_symmetric(k);
+    const double floor = std::max(kFloor * eigen.values.cwiseAbs().maxCoeff(), 1e-12);
+    const VectorXd stiffness = eigen.values.cwiseAbs().cwiseMax(floor);
+    VectorXd step = eigen.vectors * (eigen.vectors.transpose() * force).cwiseQuotient(stiffness);
     const double longest = f.measure.cwiseProduct(f.basis * step).lpNorm<Eigen::Infinity>();
     if (longest > kLongestDescent) step *= kLongestDescent / longest;
     for (int i = 0; i < kMaxHalvings; ++i) {
@@ -87,7 +86,7 @@ class Descent {
     for (int i = 0; i < 4; ++i) {
       const Balance b = compute_balance(model_, s, w_);
       if (b.phi.size() == 0 || b.phi.norm() <= kClosedTolerance) return s;
-      const VectorXd dq = take_columns(b.j, free_).completeOrthogonalDecomposition().solve(-b.phi);
+      const VectorXd dq = solve_least_squares(take_columns(b.j, free_), -b.phi);
       s = displaced(model_.mechanism, s, scatter_entries(dq, free_, model_.mechanism.nv));
     }
     return s;

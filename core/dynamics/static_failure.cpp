@@ -1,6 +1,5 @@
 #include "core/dynamics/static_failure.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -10,6 +9,7 @@
 #include "core/dynamics/static_balance.h"
 #include "core/kinematics/assembly.h"
 #include "core/kinematics/scaled_closures.h"
+#include "core/numerics/dense.h"
 #include "core/spatial/rotation_vector.h"
 
 namespace linkstudy {
@@ -57,7 +57,7 @@ class LeastUnbalance {
     VectorXd lambda;
     if (b.j.rows() > 0) {
       const MatrixXd jt = take_columns(b.j, free_).transpose();
-      lambda = jt.completeOrthogonalDecomposition().solve(take_entries(b.tau, free_));
+      lambda = solve_least_squares(jt, take_entries(b.tau, free_));
     }
     Unbalanced here = at(start, lambda);
     double mu = 1e-6;  // of the largest diagonal entry
@@ -76,7 +76,7 @@ class LeastUnbalance {
     MatrixXd normal = e.a.transpose() * e.a;
     const double size = std::max(normal.diagonal().maxCoeff(), 1e-30);
     normal.diagonal().array() += mu * size;
-    VectorXd x = normal.ldlt().solve(e.a.transpose() * e.r);
+    VectorXd x = solve_definite(normal, e.a.transpose() * e.r);
     x.tail(here.lambda.size()) *= e.scale;
     const auto n = static_cast<Eigen::Index>(free_.size());
     const double longest = x.head(n).lpNorm<Eigen::Infinity>();

@@ -1,12 +1,12 @@
 #include "core/dynamics/static_stability.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
 #include "core/dynamics/differences.h"
 #include "core/dynamics/static_balance.h"
 #include "core/kinematics/scaled_closures.h"
+#include "core/numerics/dense.h"
 
 namespace linkstudy {
 namespace {
@@ -28,16 +28,6 @@ StiffnessUnit unit_of(const Mechanism& m, const std::vector<int>& free) {
   return sliding == 0     ? StiffnessUnit::rotation
          : sliding == all ? StiffnessUnit::translation
                           : StiffnessUnit::mixed;
-}
-
-// Columns that span what the rows j leave free; none where they hold everything.
-MatrixXd null_space(const MatrixXd& j) {
-  if (j.rows() == 0) return MatrixXd::Identity(j.cols(), j.cols());
-  Eigen::FullPivLU<MatrixXd> lu(j);
-  lu.setThreshold(kRank);
-  if (lu.rank() == j.cols()) return MatrixXd(j.cols(), 0);
-  return lu.kernel().householderQr().householderQ() *
-         MatrixXd::Identity(j.cols(), lu.dimensionOfKernel());
 }
 
 void judge_eigenvalues(const VectorXd& e, double limit, StabilityReport& report) {
@@ -68,7 +58,7 @@ FreeDirections find_free_directions(const Model& model, const State<double>& s,
   }
   if (n == 0) return f;
   const MatrixXd j = take_columns(compute_balance(model, s, w).j, free);
-  f.basis = null_space(j * f.measure.asDiagonal());
+  f.basis = kernel_basis(j * f.measure.asDiagonal(), kRank);
   return f;
 }
 
@@ -89,7 +79,7 @@ StabilityReport judge_stability(const Model& model, const State<double>& s, cons
   const double weights = force_scale(model, s.t) * report.extent;
   const double stiffest = std::max(k.cwiseAbs().maxCoeff(), weights);
   const MatrixXd of_free = f.basis.transpose() * k * f.basis;
-  const VectorXd e = Eigen::SelfAdjointEigenSolver<MatrixXd>(of_free).eigenvalues();
+  const VectorXd e = decompose_symmetric(of_free).values;
   judge_eigenvalues(e, std::max(kNeutral * stiffest, kDoubts * doubt), report);
   return report;
 }

@@ -1,6 +1,5 @@
 #include "core/dynamics/statics.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,6 +13,7 @@
 #include "core/kinematics/assembly.h"
 #include "core/kinematics/scaled_closures.h"
 #include "core/model/undriven.h"
+#include "core/numerics/dense.h"
 
 namespace linkstudy {
 namespace {
@@ -26,10 +26,7 @@ constexpr double kLongestStep = 0.2;      // rad or m, of one iteration
 constexpr double kForceTolerance = 1e-9;  // relative to the weights and loads at play
 
 VectorXd newton_step(const BalanceSystem& s, Eigen::Index closures) {
-  Eigen::CompleteOrthogonalDecomposition<MatrixXd> cod(s.a.rows(), s.a.cols());
-  cod.setThreshold(1e-13);
-  cod.compute(s.a);
-  VectorXd x = cod.solve(s.r);
+  VectorXd x = solve_least_squares(s.a, s.r, 1e-13);
   x.tail(closures) *= s.scale;
   return x;
 }
@@ -140,7 +137,7 @@ class EquilibriumSearch {
     balance_ = compute_balance(model_, x_, w_);
     if (balance_.j.rows() > 0) {
       const MatrixXd jt = take_columns(balance_.j, free_).transpose();
-      lambda_ = jt.completeOrthogonalDecomposition().solve(take_entries(balance_.tau, free_));
+      lambda_ = solve_least_squares(jt, take_entries(balance_.tau, free_));
     }
     for (;; ++report_.iterations) {
       const VectorXd force = take_entries(net_force(balance_, lambda_), free_);

@@ -1,6 +1,5 @@
 #include "core/kinematics/assembly.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
@@ -12,6 +11,7 @@
 #include "core/kinematics/cut_joint.h"
 #include "core/kinematics/scaled_closures.h"
 #include "core/kinematics/three_turns.h"
+#include "core/numerics/dense.h"
 #include "core/numerics/rank.h"
 
 namespace linkstudy {
@@ -27,9 +27,9 @@ constexpr double kPolished = 1e-14;   // residual at which iteration stops
 
 // Step of least norm that minimises |r + J x|^2 + mu |x|^2.
 VectorXd damped_step(const MatrixXd& j, const VectorXd& r, double mu) {
-  if (mu == 0.0) return j.completeOrthogonalDecomposition().solve(-r);
+  if (mu == 0.0) return solve_least_squares(j, -r);
   const MatrixXd normal = j.transpose() * j + mu * MatrixXd::Identity(j.cols(), j.cols());
-  return normal.ldlt().solve(-(j.transpose() * r));
+  return solve_definite(normal, -(j.transpose() * r));
 }
 
 struct Closing {
@@ -220,7 +220,7 @@ void find_branch(const Model& model, const State<double>& s, const MatrixXd& jac
   const MatrixXd j = take_columns_by_turns(model, s, jacobian, free);
   if (j.cols() < j.rows()) return;
   std::vector<int> chosen = independent_columns(j);  // places among the free ones
-  const double det = take_columns(j, chosen).determinant();
+  const double det = determinant(take_columns(j, chosen));
   for (int& k : chosen) k = free[static_cast<std::size_t>(k)];
   report.dependent = chosen;
   report.branch = det > 0.0 ? 1 : det < 0.0 ? -1 : 0;
@@ -263,11 +263,8 @@ void assemble_velocities(const Model& model, const MatrixXd& jacobian, State<dou
     report.velocity_residual = rate.norm() / scale;
     return;
   }
-  // The threshold shapes the factorization: it has to be known before.
-  Eigen::CompleteOrthogonalDecomposition<MatrixXd> j;
-  j.setThreshold(kRankTolerance);
-  j.compute(take_columns(jacobian, free));
-  v += scatter_entries(j.solve(-rate), free, model.mechanism.nv);
+  const VectorXd change = solve_least_squares(take_columns(jacobian, free), -rate, kRankTolerance);
+  v += scatter_entries(change, free, model.mechanism.nv);
   report.velocity_residual = (jacobian * v).norm() / scale;
 }
 

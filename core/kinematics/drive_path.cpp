@@ -6,12 +6,17 @@
 #include <limits>
 #include <utility>
 
+#include "core/base/ensure.h"
+
 namespace linkstudy {
 namespace {
 
 using Eigen::VectorXd;
 
 MotionNumbers law_of(const DriveCourse& course, double duration) {
+  const bool is_table = course.law == MotionLaw::table;
+  ensure(course.motion ? course.from.has_value() : is_table || (course.from && course.to),
+         "both ends of the course are given");
   if (course.motion) return motion_numbers(*course.motion, *course.from);
   Motion motion;
   motion.law = course.law;
@@ -27,6 +32,7 @@ MotionNumbers law_of(const DriveCourse& course, double duration) {
 
 DrivePath::DrivePath(std::vector<DriveCourse> courses, double duration)
     : courses_(std::move(courses)), duration_(duration) {
+  ensure(duration > 0.0, "the drives take some time");
   for (const DriveCourse& course : courses_) laws_.push_back(law_of(course, duration_));
 }
 

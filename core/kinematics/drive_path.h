@@ -20,7 +20,7 @@ struct DriveMotion {
 
 class DrivePath {
  public:
-  // Precondition: `from` and `to` of every course are given (a table needs neither), duration > 0.
+  // `from` and `to` of every course are given (a table needs neither), duration > 0.
   DrivePath(std::vector<DriveCourse> courses, double duration);
 
   // All drives straight from one position to another in one second.

@@ -1,6 +1,5 @@
 #include "core/kinematics/driven_motion.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 
 #include "core/kinematics/three_turns.h"
@@ -10,7 +9,6 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using Svd = Eigen::JacobiSVD<MatrixXd>;
 
 constexpr int kMostCorrections = 15;
 constexpr double kResidual = 1e-12;         // without dimensions
@@ -18,24 +16,23 @@ constexpr double kCorrection = 1e-10;       // of the last iteration
 constexpr double kLongestCorrection = 1.0;  // a longer correction leads elsewhere
 constexpr double kCutoff = 1e-9;  // of singular values that a correction follows, relative
 
-Svd decompose(const MatrixXd& a) {
-  return Svd(a, Eigen::ComputeThinU | Eigen::ComputeThinV);
+SingularValues decompose(const MatrixXd& a) {
+  return decompose_singular(a, SingularVectors::thin);
 }
 
 // Singular directions, of the first `rank`, that a correction follows.
-int followed(const Svd& svd, int rank) {
+int followed(const SingularValues& svd, int rank) {
   int count = 0;
-  const double least = kCutoff * std::max(svd.singularValues()[0], kLeastRowSize);
-  while (count < rank && svd.singularValues()[count] > least) ++count;
+  const double least = kCutoff * std::max(svd.values[0], kLeastRowSize);
+  while (count < rank && svd.values[count] > least) ++count;
   return count;
 }
 
 // Least-norm solution of a x = b in the first `rank` singular directions.
-VectorXd solve_within(const Svd& svd, int rank, const VectorXd& b) {
+VectorXd solve_within(const SingularValues& svd, int rank, const VectorXd& b) {
   const int n = followed(svd, rank);
-  const VectorXd parts =
-      (svd.matrixU().leftCols(n).transpose() * b).cwiseQuotient(svd.singularValues().head(n));
-  return svd.matrixV().leftCols(n) * parts;
+  const VectorXd parts = (svd.u.leftCols(n).transpose() * b).cwiseQuotient(svd.values.head(n));
+  return svd.v.leftCols(n) * parts;
 }
 
 // J_dot(v) u from bias(v) = J_dot(v) v, which is quadratic: half of bias(v + u) - bias(v) -
@@ -157,7 +154,7 @@ std::vector<int> DrivenLinkage::columns_of_m_and_n() const {
 void DrivenLinkage::find_size(const State<double>& pose) {
   const MatrixXd r =
       take_columns(compute_scaled_closures(*closed_, scale_, pose).jacobian, columns_of_m_and_n());
-  size_ = r.size() == 0 ? 1.0 : std::max(Svd(r).singularValues()[0], kLeastRowSize);
+  size_ = r.size() == 0 ? 1.0 : std::max(singular_values(r)[0], kLeastRowSize);
 }
 
 MatrixXd DrivenLinkage::dependent_jacobian(const State<double>& s) const {
@@ -207,14 +204,14 @@ bool DrivenLinkage::close(State<double>& s) const {
   if (rank_ == 0) return residual(s) < kClosedTolerance;
   for (int i = 0; i < kMostCorrections; ++i) {
     const ScaledClosures c = compute_scaled_closures(*closed_, scale_, s);
-    const Svd svd = decompose(take_columns(c.jacobian, dependent_));
+    const SingularValues svd = decompose(take_columns(c.jacobian, dependent_));
     const VectorXd x = solve_within(svd, rank_, -c.residual);
     if (!(x.norm() < kLongestCorrection)) return false;
     s = displaced(m, s, scale_.velocity.cwiseProduct(scatter_entries(x, dependent_, m.nv)));
     if (x.norm() >= kCorrection) continue;
     // What redundant rows leave open by their rounding no correction can close.
     const VectorXd left = compute_scaled_closures(*closed_, scale_, s).residual;
-    const double independent = (svd.matrixU().leftCols(rank_).transpose() * left).norm();
+    const double independent = (svd.u.leftCols(rank_).transpose() * left).norm();
     if (independent < kResidual && left.norm() < kClosedTolerance) return true;
   }
   return false;
@@ -227,8 +224,8 @@ DrivenRates DrivenLinkage::rates(const State<double>& given, const VectorXd& rat
   if (rank_ == 0) return r;
   State<double> s = given;
   const MatrixXd j = compute_scaled_closures(*closed_, scale_, s).jacobian;
-  const Svd svd = decompose(take_columns(j, dependent_));
-  r.quality = svd.singularValues()[rank_ - 1] / size_;
+  const SingularValues svd = decompose(take_columns(j, dependent_));
+  r.quality = svd.values[rank_ - 1] / size_;
   r.is_singular = r.quality < kSingularQuality;
   r.first += scatter_entries(solve_within(svd, rank_, -j * r.first), dependent_, nv);
   for (int k = 0; k < nv; ++k) s.v[static_cast<std::size_t>(k)] = scale_.velocity[k] * r.first[k];
@@ -240,12 +237,12 @@ DrivenRates DrivenLinkage::rates(const State<double>& given, const VectorXd& rat
 
 // With y_dot = M^+ b: (1 - M^+ M) M_dot^T (M^+)^T y_dot, because the null space of M turns.
 VectorXd DrivenLinkage::turning_of_least_norm(const State<double>& s, const MatrixXd& jacobian,
-                                              const Svd& svd, const VectorXd& rates) const {
+                                              const SingularValues& svd,
+                                              const VectorXd& rates) const {
   const int nv = closed_->mechanism.nv, n = followed(svd, rank_);
-  const auto V = svd.matrixV().leftCols(n);
+  const auto V = svd.v.leftCols(n);
   const VectorXd y = take_columns(rates.transpose(), dependent_).transpose();
-  const VectorXd w =
-      svd.matrixU().leftCols(n) * (V.transpose() * y).cwiseQuotient(svd.singularValues().head(n));
+  const VectorXd w = svd.u.leftCols(n) * (V.transpose() * y).cwiseQuotient(svd.values.head(n));
   JacobianRate jacobian_rate(*closed_, scale_, s, jacobian, rates);
   VectorXd turned(y.size());
   for (std::size_t i = 0; i < dependent_.size(); ++i) {
@@ -257,14 +254,14 @@ VectorXd DrivenLinkage::turning_of_least_norm(const State<double>& s, const Matr
 
 double DrivenLinkage::quality(const State<double>& s) const {
   if (rank_ == 0) return 1.0;
-  return Svd(dependent_jacobian(s)).singularValues()[rank_ - 1] / size_;
+  return singular_values(dependent_jacobian(s))[rank_ - 1] / size_;
 }
 
 int DrivenLinkage::branch(const State<double>& s) const {
   if (branch_rows_.empty() || quality(s) < kSingularQuality) return 0;
   const MatrixXd j = compute_scaled_closures(*closed_, scale_, s).jacobian;
   const MatrixXd m = take_columns_by_turns(*closed_, s, j, dependent_);
-  return take_columns(m.transpose(), branch_rows_).determinant() > 0.0 ? 1 : -1;
+  return determinant(take_columns(m.transpose(), branch_rows_)) > 0.0 ? 1 : -1;
 }
 
 double DrivenLinkage::residual(const State<double>& s) const {
@@ -280,12 +277,12 @@ std::vector<std::string> DrivenLinkage::loose_joints(const State<double>& s) con
   std::vector<std::string> names;
   if (rank_ == 0) return names;
   const Mechanism& m = closed_->mechanism;
-  const Svd svd = decompose(dependent_jacobian(s));
+  const SingularValues svd = decompose(dependent_jacobian(s));
   VectorXd moves = VectorXd::Zero(static_cast<Eigen::Index>(dependent_.size()));
-  const double weakest = svd.singularValues()[rank_ - 1];
+  const double weakest = svd.values[rank_ - 1];
   for (int i = 0; i < rank_; ++i) {
-    const bool is_weak = svd.singularValues()[i] <= 10.0 * weakest + 1e-7;
-    if (is_weak) moves += svd.matrixV().col(i).cwiseAbs();
+    const bool is_weak = svd.values[i] <= 10.0 * weakest + 1e-7;
+    if (is_weak) moves += svd.v.col(i).cwiseAbs();
   }
   const double most = moves.maxCoeff();
   for (std::size_t i = 0; i < dependent_.size(); ++i) {

@@ -14,11 +14,11 @@
 // of (M, N) at the start. Zero: a dependent joint can move while the drives rest.
 #pragma once
 
-#include <Eigen/SVD>
 #include <string>
 #include <vector>
 
 #include "core/kinematics/mobility.h"
+#include "core/numerics/dense.h"
 
 namespace linkstudy {
 
@@ -113,7 +113,7 @@ class DrivenLinkage {
   std::vector<int> columns_of_m_and_n() const;
   Eigen::MatrixXd dependent_jacobian(const State<double>& s) const;
   Eigen::VectorXd turning_of_least_norm(const State<double>& s, const Eigen::MatrixXd& jacobian,
-                                        const Eigen::JacobiSVD<Eigen::MatrixXd>& svd,
+                                        const SingularValues& svd,
                                         const Eigen::VectorXd& rates) const;
   Eigen::VectorXd scatter_drives(const Eigen::VectorXd& of_drives) const;
 

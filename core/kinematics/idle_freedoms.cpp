@@ -1,10 +1,10 @@
 #include "core/kinematics/idle_freedoms.h"
 
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
 #include <algorithm>
 
 #include "core/kinematics/closure_jacobian.h"
+#include "core/numerics/dense.h"
 #include "core/numerics/rank.h"
 
 namespace linkstudy {
@@ -152,7 +152,7 @@ class IdleSearch {
     for (const int b : group) {
       rest.middleRows<6>(6 * b) -= motions_.middleRows<6>(6 * group.front());
     }
-    const auto sizes = Eigen::JacobiSVD<MatrixXd>(rest).singularValues();
+    const Eigen::VectorXd sizes = singular_values(rest);
     return static_cast<int>(
         std::count_if(sizes.begin(), sizes.end(), [](double s) { return s < kRests; }));
   }

@@ -1,9 +1,9 @@
 #include "core/kinematics/loop_equations.h"
 
-#include <Eigen/Dense>
 #include <bit>
 
 #include "core/kinematics/closure_jacobian.h"
+#include "core/numerics/dense.h"
 #include "core/numerics/rank.h"
 #include "core/spatial/to_eigen.h"
 
@@ -123,7 +123,7 @@ ProperElements choose_proper_elements(const MatrixXd& jacobian) {
   for (unsigned choice = 0; choice < 1u << kElements; ++choice) {
     if (std::popcount(choice) != rank) continue;
     const std::vector<int> elements = elements_in(choice);
-    const double square = gram(elements, elements).determinant();
+    const double square = determinant(gram(elements, elements));
     // Of equal choices the first: a difference must be more than rounding.
     if (square <= best * (1.0 + 1e-9)) continue;
     best = square;
@@ -135,7 +135,7 @@ ProperElements choose_proper_elements(const MatrixXd& jacobian) {
 
 double conditioning_of(const MatrixXd& jacobian, const std::vector<int>& elements) {
   if (elements.empty()) return 1.0;
-  const VectorXd sizes = Eigen::JacobiSVD<MatrixXd>(rows_of(jacobian, elements)).singularValues();
+  const VectorXd sizes = singular_values(rows_of(jacobian, elements));
   return sizes.minCoeff() / sizes.maxCoeff();
 }
 

@@ -1,8 +1,9 @@
 #include "core/kinematics/mobility.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <random>
+
+#include "core/numerics/dense.h"
 
 namespace linkstudy {
 namespace {
@@ -51,7 +52,7 @@ class Explorer {
       VectorXd d;
       if (step(s, null, kProbe, reached, d)) moved.col(i) = d;
     }
-    const VectorXd sizes = Eigen::JacobiSVD<MatrixXd>(moved).singularValues();
+    const VectorXd sizes = singular_values(moved);
     const auto spans = [](double size) { return size > kSpan; };
     return static_cast<int>(std::count_if(sizes.begin(), sizes.end(), spans));
   }

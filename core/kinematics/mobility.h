@@ -47,8 +47,8 @@ struct MobilityReport {
   std::vector<State<double>> neighbours;  // closed poses near the given one
 };
 
-// Precondition: `pose` is closed. Poses that are open by some residual are judged by the rank only:
-// `neighbours` is empty and the mobility that of first order.
+// At a closed pose; where it is open by some residual it is judged by the rank only: `neighbours`
+// is empty and the mobility that of first order.
 MobilityReport analyse_mobility(const Model& closed, const State<double>& pose);
 
 }  // namespace linkstudy

@@ -16,7 +16,7 @@ VectorXd PoseCurve::rising() const {
 }
 
 VectorXd PoseCurve::tangent(const State<double>& s, const VectorXd& sense) const {
-  const VectorXd t = decompose(s).matrixV().rightCols<1>();
+  const VectorXd t = decompose(s).v.rightCols<1>();
   return t.dot(sense) < 0.0 ? VectorXd(-t) : t;
 }
 
@@ -25,10 +25,10 @@ std::optional<State<double>> PoseCurve::at(const State<double>& s, const VectorX
   for (int i = 0; i < kIterations; ++i) {
     const VectorXd residual =
         compute_scaled_closures(linkage_.model(), linkage_.scale(), x).residual;
-    const Eigen::JacobiSVD<MatrixXd> svd = decompose(x);
+    const SingularValues svd = decompose(x);
     VectorXd step = VectorXd::Zero(count() + 1);
     for (int k = 0; k < linkage_.rank(); ++k) {
-      step -= svd.matrixV().col(k) * (svd.matrixU().col(k).dot(residual) / svd.singularValues()[k]);
+      step -= svd.v.col(k) * (svd.u.col(k).dot(residual) / svd.values[k]);
     }
     if (!step.allFinite()) return std::nullopt;
     x = moved(x, step);
@@ -43,7 +43,7 @@ double PoseCurve::way_between(const State<double>& a, const State<double>& b) co
   return way.dot(direction_) / direction_.norm();
 }
 
-Eigen::JacobiSVD<MatrixXd> PoseCurve::decompose(const State<double>& s) const {
+SingularValues PoseCurve::decompose(const State<double>& s) const {
   const MatrixXd j = compute_scaled_closures(linkage_.model(), linkage_.scale(), s).jacobian;
   MatrixXd wide(j.rows(), count() + 1);
   VectorXd driven = VectorXd::Zero(j.rows());
@@ -51,7 +51,7 @@ Eigen::JacobiSVD<MatrixXd> PoseCurve::decompose(const State<double>& s) const {
     driven += direction_[static_cast<Eigen::Index>(i)] * j.col(linkage_.drives()[i].velocity);
   }
   wide << take_columns(j, linkage_.dependent()), driven;
-  return Eigen::JacobiSVD<MatrixXd>(wide, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  return decompose_singular(wide, SingularVectors::full);
 }
 
 State<double> PoseCurve::moved(const State<double>& s, const VectorXd& way) const {

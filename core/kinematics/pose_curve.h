@@ -5,7 +5,6 @@
 // the drives determine everything: elsewhere closed poses are no curve.
 #pragma once
 
-#include <Eigen/SVD>
 #include <optional>
 
 #include "core/kinematics/driven_motion.h"
@@ -34,7 +33,7 @@ class PoseCurve {
 
  private:
   Eigen::Index count() const { return static_cast<Eigen::Index>(linkage_.dependent().size()); }
-  Eigen::JacobiSVD<Eigen::MatrixXd> decompose(const State<double>& s) const;
+  SingularValues decompose(const State<double>& s) const;
   State<double> moved(const State<double>& s, const Eigen::VectorXd& way) const;
 
   const DrivenLinkage& linkage_;

@@ -1,6 +1,6 @@
 #include "core/kinematics/three_turns.h"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

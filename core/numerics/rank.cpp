@@ -1,13 +1,13 @@
 #include "core/numerics/rank.h"
 
-#include "core/numerics/dense_instances.h"
+#include "core/numerics/dense.h"
 
 namespace linkstudy {
 
 NumericalRank numerical_rank(const Eigen::MatrixXd& a, double relative_tolerance, double least) {
   NumericalRank r;
   if (a.size() == 0) return r;
-  const Eigen::VectorXd s = Eigen::JacobiSVD<Eigen::MatrixXd>(a).singularValues();
+  const Eigen::VectorXd s = singular_values(a);
   const double largest = std::max(s[0], least);
   if (largest == 0.0) return r;
   for (Eigen::Index i = 0; i < s.size(); ++i) {
@@ -24,9 +24,8 @@ NumericalRank numerical_rank(const Eigen::MatrixXd& a, double relative_tolerance
 
 Eigen::MatrixXd null_space(const Eigen::MatrixXd& a, double relative_tolerance, double least) {
   if (a.rows() == 0) return Eigen::MatrixXd::Identity(a.cols(), a.cols());
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(a, Eigen::ComputeFullV);
   const int rank = numerical_rank(a, relative_tolerance, least).rank;
-  return svd.matrixV().rightCols(a.cols() - rank);
+  return decompose_singular(a, SingularVectors::right).v.rightCols(a.cols() - rank);
 }
 
 }  // namespace linkstudy

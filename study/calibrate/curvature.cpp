@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include "core/numerics/dense_instances.h"
+#include "core/numerics/dense.h"
 
 namespace linkstudy::calibration {
 namespace {
@@ -66,15 +66,14 @@ Curvature compute_curvature(const FitProblem& problem, const Vector& point,
       lengths[i] = 1.0;
     }
   }
-  const Eigen::JacobiSVD<Matrix, Eigen::ColPivHouseholderQRPreconditioner> svd(
-      scaled, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  const Vector& sigma = svd.singularValues();
+  const SingularValues svd = decompose_singular(scaled, SingularVectors::thin);
+  const Vector& sigma = svd.values;
   Curvature curvature;
   curvature.singular_values.assign(sigma.begin(), sigma.end());
   const Vector slopes = relative_slopes(problem, point);
   Matrix covariance = Matrix::Zero(n, n);
   for (Index k = 0; k < sigma.size(); ++k) {
-    const Vector v = svd.matrixV().col(k);
+    const Vector v = svd.v.col(k);
     if (sigma[k] > kFlat * sigma[0] && sigma[k] > 0.0) {
       const Vector part = v.cwiseQuotient(lengths) / sigma[k];
       covariance += part * part.transpose();

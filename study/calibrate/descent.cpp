@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <unsupported/Eigen/NonLinearOptimization>
-#include "core/numerics/dense_instances.h"
 
 namespace linkstudy::calibration {
 namespace {

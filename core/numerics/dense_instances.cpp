@@ -1,3 +1,0 @@
-#include "core/numerics/dense_instances.h"
-
-LINKSTUDY_DENSE_INSTANCES()
