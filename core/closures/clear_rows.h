@@ -40,7 +40,7 @@ inline void sum_independence(const Mechanism& m, Real shortest, Workspace<Real>&
   }
 }
 
-// True in the lanes whose rows are clearly independent. Precondition: Workspace::cut_jacobian.
+// True in the lanes whose rows are clearly independent. From Workspace::cut_jacobian.
 template <class Real>
 inline auto rows_are_clear(const Mechanism& m, const Parameters<Real>& p, Workspace<Real>& w) {
   update_row_scales(m, p, w);

@@ -25,7 +25,7 @@ inline void solve_correction(const Mechanism& m, Workspace<Real>& w, Real* dv) {
          at(m.closures, r.closure).stabilization == Stabilization::projection;
 }
 
-// Precondition: kinematics and mass matrix factor of (q, v) are in w. dv is (nv) scratch.
+// Kinematics and mass matrix factor of (q, v) are in w. dv is (nv) scratch.
 template <class Real>
 inline void project(const Mechanism& m, const Parameters<Real>& p, Real* q, Real* v, Real* dv,
                     Workspace<Real>& w) {

@@ -165,7 +165,7 @@ inline void fill_redundant_system(const Mechanism& m, const Workspace<Real>& w, 
 }
 
 // Factors for the lanes of Workspace::redundant, and the number of their independent rows.
-// Precondition: cut_jacobian.
+// From Workspace::cut_jacobian.
 template <class Real>
 inline void factorize_redundant_rows(const Mechanism& m, const Parameters<Real>& p,
                                      Workspace<Real>& w) {

@@ -1,6 +1,5 @@
 #include "core/dynamics/spectrum.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,9 +7,12 @@
 #include "core/dynamics/differences.h"
 #include "core/dynamics/linear_springs.h"
 #include "core/dynamics/motion.h"
+#include "core/dynamics/motion_derivative.h"
 #include "core/forces/contact_memory.h"
 #include "core/kinematics/assembly.h"
+#include "core/kinematics/joint_kinematics.h"
 #include "core/model/bristles.h"
+#include "core/numerics/dense.h"
 
 namespace linkstudy {
 namespace {
@@ -128,14 +130,36 @@ Steps choose_steps(const Model& model, const State<double>& s, Workspace<double>
   return steps;
 }
 
-MatrixXd directed_system(const Model& model, const State<double>& s,
-                         const std::vector<double>& approach) {
+// dq'/dv (nq, nv) at a pose.
+MatrixXd position_rates_of(const Mechanism& m, const State<double>& s) {
+  MatrixXd rates = MatrixXd::Zero(m.nq, m.nv);
+  for (const Stage& stage : m.stages) {
+    const int count = stage.motion == BasicMotion::ball ? 3 : 1;
+    for (int k = 0; k < count; ++k) {
+      const Eigen::Vector3d unit = Eigen::Vector3d::Unit(k);
+      position_rates(stage, s.q.data() + stage.q, unit.data(), &rates(stage.q, stage.v + k));
+    }
+  }
+  return rates;
+}
+
+// Rows of accelerations and bristles, exactly; false where that is not known.
+bool fill_exactly(const Model& model, const State<double>& s, const Workspace<double>& w,
+                  MatrixXd& a) {
   const Mechanism& m = model.mechanism;
-  Workspace<double> w = make_workspace<double>(m);
-  hold_contacts(m, approach, w);
+  MotionDerivative& derivative = derivative_of(model);
+  const std::vector<double>& z = s.z.size() == w.z.size() ? s.z : w.z;
+  if (!derivative.update(s.t, s.q.data(), s.v.data(), z.data(), w.memory)) return false;
+  const auto rows = derivative.matrix().middleRows(m.nq, m.nv + m.nz);
+  a.bottomLeftCorner(m.nv + m.nz, m.nv) = rows.leftCols(m.nq) * position_rates_of(m, s);
+  a.bottomRightCorner(m.nv + m.nz, m.nv + m.nz) = rows.rightCols(m.nv + m.nz);
+  return true;
+}
+
+void fill_by_differences(const Model& model, const State<double>& s, Workspace<double>& w,
+                         MatrixXd& a) {
+  const Mechanism& m = model.mechanism;
   const Steps steps = choose_steps(model, s, w);
-  MatrixXd a = MatrixXd::Zero(2 * m.nv + m.nz, 2 * m.nv + m.nz);
-  fill_kinematics(m, s, a);
   for (int k = 0; k < m.nv; ++k) {
     const auto at_position = [&](double x) {
       return slopes(model, displaced(m, s, x * VectorXd::Unit(m.nv, k)), w);
@@ -156,6 +180,16 @@ MatrixXd directed_system(const Model& model, const State<double>& s,
     };
     a.block(m.nv, 2 * m.nv + i, m.nv + m.nz, 1) = differentiate(at_bristle, steps.z[i]).value;
   }
+}
+
+MatrixXd directed_system(const Model& model, const State<double>& s,
+                         const std::vector<double>& approach) {
+  const Mechanism& m = model.mechanism;
+  Workspace<double> w = make_workspace<double>(m);
+  hold_contacts(m, approach, w);
+  MatrixXd a = MatrixXd::Zero(2 * m.nv + m.nz, 2 * m.nv + m.nz);
+  fill_kinematics(m, s, a);
+  if (!fill_exactly(model, s, w, a)) fill_by_differences(model, s, w, a);
   return a;
 }
 
@@ -209,7 +243,7 @@ Spectrum compute_spectrum(const Model& model, const State<double>& s,
     const double unknown = std::numeric_limits<double>::quiet_NaN();
     return {{}, unknown, unknown};
   }
-  const Eigen::VectorXcd lambda = Eigen::EigenSolver<MatrixXd>(a, false).eigenvalues();
+  const Eigen::VectorXcd lambda = eigenvalues_of(a);
   return spectrum_of({lambda.begin(), lambda.end()});
 }
 

@@ -27,7 +27,7 @@ namespace linkstudy {
 // beyond the ends, the outermost. A torque has its point too (Load::point), which on a rigid link
 // makes no difference. Loads that follow the link follow the element. The shape of the link is that
 // of the element of its own joint, in whole: to draw it bent is up to who draws. Other links are
-// untouched. Precondition: check(linkage) is empty.
+// untouched. Of a linkage in which check() finds nothing.
 Linkage expand_flexible_links(const Linkage& linkage);
 
 }  // namespace linkstudy

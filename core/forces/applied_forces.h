@@ -3,8 +3,9 @@
 // powers of drives and of dissipation are summed.
 #pragma once
 
+#include "core/closures/clearance_joint.h"
+#include "core/closures/replacement_joint.h"
 #include "core/forces/constant_friction.h"
-#include "core/forces/contact_forces.h"
 #include "core/forces/course_value.h"
 #include "core/forces/end_stops.h"
 #include "core/forces/point_springs.h"
@@ -80,28 +81,7 @@ inline void add_joint_springs(const Mechanism& m, const Parameters<Real>& p, con
   }
 }
 
-// Spring-damping elements: f = c d + b d_dot along each row, on chain 1 ([Urbas16] eqs. (5), (14)).
-template <class Real>
-inline void add_sdes(const Mechanism& m, const Parameters<Real>& p, Workspace<Real>& w) {
-  update_rows<RowStorage::sde>(m, p, w);
-  for (const int i : indices(m.sde_row_count())) {
-    RowState<Real>& row = at(w.sde_rows, i);
-    const SpringParameters<Real>& n = at(p.springs, i);
-    const Real damping_force = n.damping * row.rate;
-    row.value = madd(n.stiffness, row.d, damping_force);
-    w.dissipated_power = madd(damping_force, row.rate, w.dissipated_power);
-  }
-  sum_row_forces<RowStorage::sde>(m, w);
-  BodyState<Real>* bodies = w.bodies.data();
-  for (const int i : indices_of(m.closures)) {
-    const ClosureStructure& c = at(m.closures, i);
-    if (storage_of(c.model) != RowStorage::sde) continue;
-    subtract_closure_forces(c, at(w.closures, i), bodies, bodies[c.first].wrench,
-                            bodies[c.second].wrench);
-  }
-}
-
-// Precondition: BodyState::wrench holds the inertial wrenches; the forces are taken off them.
+// BodyState::wrench holds the inertial wrenches; the forces are taken off them.
 template <class Real>
 inline void update_applied_forces(const Mechanism& m, const Parameters<Real>& p, Real t,
                                   const Real* q, const Real* v, Workspace<Real>& w) {
@@ -110,9 +90,9 @@ inline void update_applied_forces(const Mechanism& m, const Parameters<Real>& p,
   w.dissipated_power = w.contact_power = Real(0.0);
   add_loads(m, p, t, q, v, w);
   add_joint_springs(m, p, q, v, w);
-  add_sdes(m, p, w);
+  add_replacement_joints(m, p, w);
   add_point_springs(m, p, t, q, w);
-  add_contacts(m, p, w);
+  add_clearance_joints(m, p, w);
   add_stops(m, p, q, v, w);
   add_constant_friction(m, p, v, w);
 }

@@ -1,8 +1,9 @@
 // What contacts remember from one accepted state to the next.
 #pragma once
 
-#include "core/forces/contact_forces.h"
 #include "core/forces/contact_log.h"
+#include "core/model/walk.h"
+#include "core/model/workspace.h"
 
 namespace linkstudy {
 

@@ -5,7 +5,8 @@
 // dissipated. What contacts remember is as for clearances (core/forces/contact_memory.h).
 #pragma once
 
-#include "core/forces/contact_forces.h"
+#include "core/model/contact_approach.h"
+#include "core/model/parameters.h"
 
 namespace linkstudy {
 

@@ -16,9 +16,10 @@ struct Model {
   std::vector<int> held;
 };
 
-// Precondition: check(linkage) is empty. Bodies follow the order of Linkage::joints wherever that
-// puts parents before children. Damping given as a ratio is zero until resolve_damping (dynamics).
-// `idle`: for every closure the directions whose cut rows are left out (core/kinematics/idle_rows).
+// Of a linkage in which check() finds nothing. Bodies follow the order of Linkage::joints wherever
+// that puts parents before children. Damping given as a ratio is zero until resolve_damping
+// (dynamics). `idle`: for every closure the directions whose cut rows are left out
+// (core/kinematics/idle_rows).
 Model compile(const Linkage& linkage, const std::vector<unsigned>& idle = {});
 
 // The same linkage with what must be closed when a run begins as cut rows: cut joints and

@@ -3,8 +3,8 @@
 //   dormand_prince  explicit, order 5(4), dense output of order 4; 6 evaluations a step
 //                   (Boost.odeint)
 //   radau           implicit (Radau IIA, three stages), order 5(3), dense output of order 3,
-//                   stiffly accurate; 3 evaluations an iteration of Newton and two a column of a
-//                   new Jacobian (radau.cpp)
+//                   stiffly accurate; 3 evaluations an iteration of Newton, and where the
+//                   derivative is not known two a column of a new Jacobian (radau.cpp)
 // A step is accepted when the estimate of its error stays below
 //   absolute_i + relative max |y_i|
 // in every unknown (dormand_prince) or in the mean square over them (radau). Knows no
@@ -22,6 +22,9 @@ enum class AdaptiveMethod { dormand_prince, radau };
 // Writes dy = f(t, y).
 using Slopes = std::function<void(double t, const double* y, double* dy)>;
 
+// Writes df/dy, by columns, of the unknowns whose errors count; false where it is not known.
+using SlopeDerivative = std::function<bool(double t, const double* y, double* columns)>;
+
 struct AdaptiveProblem {
   Slopes slopes;
   double relative = 1e-8;
@@ -29,6 +32,8 @@ struct AdaptiveProblem {
                                  // ones): errors do not count
   int passive = 0;               // trailing unknowns that f does not depend on
   double max_step = 0.0;         // 0: none
+  SlopeDerivative derivative = nullptr;  // for radau; without it, or where it is not known:
+                                         // differences
   int size() const { return static_cast<int>(absolute.size()); }
 };
 

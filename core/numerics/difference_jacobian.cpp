@@ -14,11 +14,10 @@ DifferenceJacobian::DifferenceJacobian(std::vector<double> floor, int passive)
     : floor_(std::move(floor)),
       active_(static_cast<int>(floor_.size()) - passive),
       by_unknown_(floor_.size(), std::vector<double>(floor_.size(), 0.0)),
-      by_time_(floor_.size(), 0.0),
       moved_(floor_.size()),
       before_(floor_.size()) {}
 
-void DifferenceJacobian::update(const Slopes& f, double t, const double* y, double span) {
+void DifferenceJacobian::update(const Slopes& f, double t, const double* y) {
   moved_.assign(y, y + floor_.size());
   for (std::size_t k = 0; k < static_cast<std::size_t>(active_); ++k) {
     // What the sums keep of the increment is what is divided by.
@@ -31,11 +30,6 @@ void DifferenceJacobian::update(const Slopes& f, double t, const double* y, doub
     divide(high - low, by_unknown_[k]);
     moved_[k] = y[k];
   }
-  const double increment = kIncrement * std::max(std::fabs(t), span);
-  const double late = t + increment;  // f may have a corner here, as courses do
-  f(t, y, before_.data());
-  f(late, y, by_time_.data());
-  divide(late - t, by_time_);
 }
 
 void DifferenceJacobian::divide(double way, std::vector<double>& column) const {

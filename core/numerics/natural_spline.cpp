@@ -1,10 +1,16 @@
 #include "core/numerics/natural_spline.h"
 
+#include <algorithm>
+
+#include "core/base/ensure.h"
+
 namespace linkstudy {
 
 // Second derivatives m at the points, zero at both ends, from
 //   h_i m_i + 2 (h_i + h_i+1) m_i+1 + h_i+1 m_i+2 = 6 (slope_i+1 - slope_i)
 std::vector<SplineKnot> natural_spline(const std::vector<double>& t, const std::vector<double>& p) {
+  ensure(t.size() >= 2 && p.size() == t.size(), "two points at least, a position for each time");
+  ensure(std::ranges::is_sorted(t, std::less_equal<>()), "times rise");
   const std::size_t last = t.size() - 1;
   const auto width = [&](std::size_t i) { return t[i + 1] - t[i]; };
   const auto slope = [&](std::size_t i) { return (p[i + 1] - p[i]) / width(i); };

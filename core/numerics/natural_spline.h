@@ -11,7 +11,7 @@ struct SplineKnot {
   double begin = 0.0, value = 0.0, first = 0.0, second = 0.0, third = 0.0;
 };
 
-// One for each point; the last is the straight line that goes on. Precondition: at least two
+// One for each point; the last is the straight line that goes on. At least two
 // points, times rising.
 std::vector<SplineKnot> natural_spline(const std::vector<double>& t, const std::vector<double>& p);
 

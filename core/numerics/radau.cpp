@@ -5,7 +5,6 @@
 // into the real eigenvalue gamma and the pair alpha +- i beta, each takes one real and one complex
 // system with gamma/h - J and (alpha - i beta)/h - J. J is kept while Newton converges fast, its
 // factors while the step does not change.
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -13,6 +12,7 @@
 #include <limits>
 
 #include "core/numerics/adaptive_methods.h"
+#include "core/numerics/dense.h"
 #include "core/numerics/difference_jacobian.h"
 
 namespace linkstudy {
@@ -57,19 +57,18 @@ struct Coefficients {
     }
     inverse = monomials * integrals.inverse();
     powers = (c.asDiagonal() * monomials).inverse();
-    const Eigen::EigenSolver<Matrix3d> eigen(inverse);
+    const GeneralEigen eigen = decompose_general(inverse);
     int real = 0;
     for (int i = 1; i < 3; ++i) {
-      if (std::fabs(eigen.eigenvalues()[i].imag()) < std::fabs(eigen.eigenvalues()[real].imag()))
-        real = i;
+      if (std::fabs(eigen.values[i].imag()) < std::fabs(eigen.values[real].imag())) real = i;
     }
     const int pair = (real + 1) % 3;
-    gamma = eigen.eigenvalues()[real].real();
-    alpha = eigen.eigenvalues()[pair].real();
-    beta = eigen.eigenvalues()[pair].imag();
-    basis.col(0) = eigen.eigenvectors().col(real).real();
-    basis.col(1) = eigen.eigenvectors().col(pair).real();
-    basis.col(2) = eigen.eigenvectors().col(pair).imag();
+    gamma = eigen.values[real].real();
+    alpha = eigen.values[pair].real();
+    beta = eigen.values[pair].imag();
+    basis.col(0) = eigen.vectors.col(real).real();
+    basis.col(1) = eigen.vectors.col(pair).real();
+    basis.col(2) = eigen.vectors.col(pair).imag();
     basis_inverse = basis.inverse();
     weight = 1.0 / gamma;
     // b is the last row of A; b^ has the moments 1/q less what the begin contributes.
@@ -91,7 +90,7 @@ class Radau final : public AdaptiveIntegrator {
         n_(static_cast<int>(
             std::ranges::count_if(problem().absolute, [](double x) { return std::isfinite(x); }))),
         integrals_(problem().size() - n_),
-        jacobian_(typical_sizes(problem()), problem().passive),
+        differences_(typical_sizes(problem()), problem().passive),
         counted_([this](double t, const double* y, double* dy) { evaluate(t, y, dy); }),
         matrix_(n_, n_),
         shifted_(n_, n_),
@@ -154,10 +153,13 @@ class Radau final : public AdaptiveIntegrator {
     evaluate(time, whole_.data(), whole_slope_.data());
   }
 
-  void linearize(double h) {
-    jacobian_.update(counted_, t(), y(), h);
-    for (int k = 0; k < n_; ++k)
-      for (int i = 0; i < n_; ++i) matrix_(i, k) = jacobian_.by_unknown(i, k);
+  void linearize() {
+    const SlopeDerivative& derivative = problem().derivative;
+    if (!derivative || !derivative(t(), y(), matrix_.data())) {
+      differences_.update(counted_, t(), y());
+      for (int k = 0; k < n_; ++k)
+        for (int i = 0; i < n_; ++i) matrix_(i, k) = differences_.by_unknown(i, k);
+    }
     linearized_ = true;
     fresh_ = true;
     factored_ = 0.0;
@@ -286,7 +288,7 @@ class Radau final : public AdaptiveIntegrator {
 
   Newton solve(double h) {
     for (;;) {
-      if (!linearized_) linearize(h);
+      if (!linearized_) linearize();
       factorize(h);
       predict(h);
       const Newton result = iterate(h);
@@ -362,7 +364,7 @@ class Radau final : public AdaptiveIntegrator {
 
   int n_;          // unknowns whose errors count
   int integrals_;  // the others: the last, on which nothing depends
-  DifferenceJacobian jacobian_;
+  DifferenceJacobian differences_;
   Slopes counted_;
   MatrixXd matrix_, shifted_;
   MatrixXcd shifted_complex_;

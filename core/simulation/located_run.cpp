@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/dynamics/motion_derivative.h"
 #include "core/numerics/adaptive_integrator.h"
 #include "core/simulation/contact_events.h"
 #include "core/simulation/contact_list.h"
@@ -75,6 +76,11 @@ class LocatedRun {
     p.relative = options_.relative_tolerance;
     p.absolute.assign(size_, options_.absolute_tolerance);
     p.passive = work_count(m_);
+    if (options_.integrator == Integrator::stiff) {
+      p.derivative = [this](double t, const double* y, double* columns) {
+        return differentiate_exactly(t, y, columns);
+      };
+    }
     // It is told apart without a say in the steps.
     if (!m_.contacts.empty()) p.absolute.back() = kOpen;
     return p;
@@ -102,6 +108,26 @@ class LocatedRun {
     evaluate_at(t, y);
     write_slopes(m_, y, w_, slope);
     if (++since_poll_ >= kStepsBetweenPolls) poll(t);
+  }
+
+  // Of differentiate(), (n, n) with n - 2 the numbers of q, v and z; what it imposes does not vary.
+  bool differentiate_exactly(double t, const double* y, double* columns) {
+    if (!derivative_) derivative_.emplace(m_, p_);
+    if (t >= corner_) t = CourseCorners::before(corner_);
+    y = with_motions(t, y);
+    const double* v = y + m_.nq;
+    if (!derivative_->update(t, y, v, v + m_.nv, w_.memory)) return false;
+    const Eigen::Index n = derivative_->matrix().rows();
+    Eigen::Map<Eigen::MatrixXd> all(columns, n, n);
+    all.leftCols(n - 2) = derivative_->matrix();
+    all.rightCols(2).setZero();
+    for (const MotionStructure& motion : m_.motions) {
+      for (const int k : {motion.q, m_.nq + motion.v}) {
+        all.row(k).setZero();
+        all.col(k).setZero();
+      }
+    }
+    return true;
   }
 
   void poll(double t) {
@@ -364,6 +390,7 @@ class LocatedRun {
   CourseCorners corners_;
   double corner_ = std::numeric_limits<double>::infinity();  // that the step may reach, s
   LaneObservers<double> observers_;
+  std::optional<MotionDerivative> derivative_;  // of stiff runs
   std::unique_ptr<AdaptiveIntegrator> integrator_;
   ContactEvents events_;
   std::vector<ContactPhase> phases_;

@@ -2,8 +2,8 @@
 // the last one.
 #pragma once
 
+#include "core/model/parameter_numbers.h"
 #include "core/simulation/kernel.h"
-#include "core/simulation/parameter_numbers.h"
 
 namespace linkstudy {
 

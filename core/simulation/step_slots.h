@@ -12,7 +12,7 @@
 #include <cstddef>
 
 #include "core/forces/contact_log.h"
-#include "core/simulation/parameter_numbers.h"
+#include "core/model/parameter_numbers.h"
 
 namespace linkstudy {
 

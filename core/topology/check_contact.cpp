@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/ensure.h"
+
 namespace linkstudy {
 namespace {
 
@@ -151,6 +153,7 @@ void check_joint_friction(const Joint& joint, RecordCheck& record) {
 }
 
 void check_stops(const Joint& joint, RecordCheck& record) {
+  ensure(joint.stop.has_value(), "the joint has stops");
   const JointStops& stop = *joint.stop;
   const int count = velocity_count(joint.type);
   if (count == 0 || position_count(joint.type, joint.coordinates) != count) {
@@ -181,6 +184,7 @@ void check_stops(const Joint& joint, RecordCheck& record) {
 }
 
 void check_clearance(const Closure& closure, RecordCheck& record) {
+  ensure(closure.model == ClosureModel::clearance, "the closure has a clearance");
   const Clearance& clearance = closure.clearance;
   if (closure.type != JointType::revolute) {
     record.report("type", "model = \"clearance\" is for a closure of type revolute",

@@ -13,10 +13,10 @@ void check_friction(const Friction& friction, RecordCheck& record);
 // Of a revolute, prismatic or cylindrical joint; a surface that turns has a radius.
 void check_joint_friction(const Joint& joint, RecordCheck& record);
 
-// Precondition: the joint has stops. On coordinates that are no quaternion; low below high.
+// Of a joint that has stops. On coordinates that are no quaternion; low below high.
 void check_stops(const Joint& joint, RecordCheck& record);
 
-// Precondition: the closure's model is clearance. Revolute only. The bearing has a radius, larger
+// Of a closure of model clearance. Revolute only. The bearing has a radius, larger
 // than the clearance, wherever friction or stiffness asks for it; stiffness from materials asks for
 // a clearance above zero too, a spatial contact for the length of the bearing.
 void check_clearance(const Closure& closure, RecordCheck& record);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/ensure.h"
 #include "core/topology/check_values.h"
 #include "core/topology/flexible_beam.h"
 #include "core/topology/record_check.h"
@@ -110,6 +111,7 @@ void check_moments(const Link& link, RecordCheck& record) {
 }  // namespace
 
 void check_flexible(const Link& link, const std::string& path, std::vector<Problem>& problems) {
+  ensure(link.flexible.has_value(), "the link is flexible");
   RecordCheck record{path, "link '" + link.name + "'", problems};
   check_section(*link.flexible, record);
   check_start(*link.flexible, record);

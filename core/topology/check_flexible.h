@@ -12,7 +12,7 @@
 
 namespace linkstudy {
 
-// Precondition: link.flexible. Appends to `problems`; `path` addresses the link.
+// Of a flexible link. Appends to `problems`; `path` addresses the link.
 void check_flexible(const Link& link, const std::string& path, std::vector<Problem>& problems);
 
 }  // namespace linkstudy

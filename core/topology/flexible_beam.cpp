@@ -2,6 +2,8 @@
 
 #include <Eigen/Geometry>
 
+#include "core/base/ensure.h"
+
 namespace linkstudy {
 
 Eigen::Matrix3d beam_axes(const FlexibleBeam& beam) {
@@ -9,6 +11,8 @@ Eigen::Matrix3d beam_axes(const FlexibleBeam& beam) {
   axes.col(0) = (beam.end - beam.begin).normalized();
   axes.col(2) = axes.col(0).cross(beam.across).normalized();
   axes.col(1) = axes.col(2).cross(axes.col(0));
+  ensure(axes.allFinite() && axes.col(1).squaredNorm() > 0.5,
+         "the beam has a length, and its other axis is not along it");
   return axes;
 }
 

@@ -10,7 +10,7 @@ namespace linkstudy {
 inline constexpr int kMostSegments = 200;  // dense matrices of 3 freedoms a segment
 
 // Columns are the axes of the beam in the link frame: x along the beam, y = `across` made
-// perpendicular. Precondition: begin and end differ, across is not along the beam.
+// perpendicular. Begin and end differ, across is not along the beam.
 Eigen::Matrix3d beam_axes(const FlexibleBeam& beam);
 
 // Elements <link>_rfe0 .. <link>_rfe<n>, and the joint <link>_sde<k> between elements k - 1 and k,

@@ -7,13 +7,13 @@
 #include <stdexcept>
 
 #include "study/config/key_reference.h"
+#include "study/record/lines.h"
 
 namespace linkstudy {
 namespace {
 
 using boost::algorithm::replace_all_copy;
 
-constexpr std::size_t kWidth = 100;
 constexpr std::size_t kCommentColumn = 44;
 
 // The part of the batch script that must be there for its replacement to mean anything.
@@ -25,19 +25,11 @@ std::string replace_part(const std::string& text, const std::string& from, const
   return text.substr(0, begin) + with + text.substr(end);
 }
 
-// "# words\n", wrapped.
-std::string wrap(const std::string& words) {
+// "# words\n", in lines.
+std::string comment_lines(const std::string& words) {
   std::string text;
-  std::string line = "#";
-  std::istringstream stream(words);
-  for (std::string word; stream >> word;) {
-    if (line.size() + 1 + word.size() > kWidth) {
-      text += line + "\n";
-      line = "#";
-    }
-    line += " " + word;
-  }
-  return text + line + "\n";
+  for (const std::string& line : words_in_lines(words, kPageWidth - 2)) text += "# " + line + "\n";
+  return text;
 }
 
 std::string beside(const std::string& line, const std::string& comment) {
@@ -47,7 +39,7 @@ std::string beside(const std::string& line, const std::string& comment) {
 // The comment beside the key where it fits, or else above it.
 std::string comment_on(const std::string& line, const std::string& comment) {
   const std::string together = beside(line, comment);
-  return together.size() <= kWidth ? together + "\n" : wrap(comment) + line + "\n";
+  return together.size() <= kPageWidth ? together + "\n" : comment_lines(comment) + line + "\n";
 }
 
 std::string expand(const std::string& line, const std::string& kind) {

@@ -2,10 +2,23 @@
 
 #include <fmt/format.h>
 
+#include "study/record/lines.h"
+
 namespace linkstudy {
+namespace {
+
+constexpr std::size_t kLabelWidth = 13;
+
+}  // namespace
 
 std::string summary_line(std::string_view label, std::string_view value) {
-  return fmt::format("{:<13}{}\n", label, value);
+  std::string text;
+  std::string_view begin = label;
+  for (const std::string& line : words_in_lines(value, kPageWidth - kLabelWidth)) {
+    text += fmt::format("{:<{}}{}\n", begin, kLabelWidth, line);
+    begin = "";
+  }
+  return text;
 }
 
 std::string text_of(const std::vector<Finding>& findings) {

@@ -21,7 +21,7 @@ struct FoundNumber {
   double value = 0.0;  // NaN where there is none
 };
 
-// "LABEL   VALUE\n", aligned.
+// "LABEL   VALUE\n", aligned; what does not fit the page goes on below the value.
 std::string summary_line(std::string_view label, std::string_view value);
 
 // A line each.

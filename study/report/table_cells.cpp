@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "study/record/lines.h"
+
 namespace linkstudy {
 namespace {
 
@@ -45,11 +47,6 @@ std::vector<std::string> wrapped(std::string_view name, std::size_t width) {
     lines.back() += piece;
   }
   return lines;
-}
-
-std::size_t text_width(std::string_view text) {
-  return static_cast<std::size_t>(std::ranges::count_if(
-      text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u; }));
 }
 
 }  // namespace linkstudy

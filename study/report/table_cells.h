@@ -20,9 +20,6 @@ nlohmann::ordered_json json_cell(const Column& column, std::size_t row);
 // underscores and blanks.
 std::vector<std::string> wrapped(std::string_view name, std::size_t width);
 
-// Characters of a UTF-8 text: all bytes but continuation bytes.
-std::size_t text_width(std::string_view text);
-
 // content(column) for the columns of a table, with `separator` between them.
 template <class Content>
 std::string joined_columns(const Table& table, std::string_view separator, Content content) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "study/record/lines.h"
 #include "study/report/table_cells.h"
 #include "study/report/write_table.h"
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "study/record/lines.h"
 #include "study/report/table_cells.h"
 #include "study/report/write_table.h"
 

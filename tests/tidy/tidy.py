@@ -12,7 +12,7 @@ import sys
 from pathlib import Path
 
 # Layers, top to bottom: a file includes only its own folder and folders above it.
-CORE = """base codegen numerics spatial laws topology flexible model kinematics forces closures
+CORE = """base codegen numerics spatial laws topology flexible model kinematics closures forces
           dynamics simulation""".split()
 STUDY = """record config design metrics evaluate schedule tune converge calibrate store
            report kinematics session plan page cli""".split()

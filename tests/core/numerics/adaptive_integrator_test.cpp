@@ -235,6 +235,50 @@ TEST(AdaptiveIntegrator, Passive_unknowns_save_the_evaluations_of_their_columns)
   EXPECT_EQ((evaluations[0] - evaluations[1]) % 4, 0);
 }
 
+// Van der Pol: y'' = mu (1 - y^2) y' - y.
+TEST(AdaptiveIntegrator, A_derivative_that_is_known_saves_all_evaluations_of_differences) {
+  constexpr double mu = 100.0;
+  const auto f = [](double, const double* y, double* dy) {
+    dy[0] = y[1];
+    dy[1] = mu * (1.0 - y[0] * y[0]) * y[1] - y[0];
+  };
+  int asked = 0;
+  bool is_known = true;
+  const auto derivative = [&](double, const double* y, double* columns) {
+    ++asked;
+    columns[0] = 0.0;
+    columns[1] = -2.0 * mu * y[0] * y[1] - 1.0;
+    columns[2] = 1.0;
+    columns[3] = mu * (1.0 - y[0] * y[0]);
+    return is_known;
+  };
+  const double y0[] = {2.0, 0.0};
+  struct End {
+    double y;
+    long evaluations, steps;
+  };
+  const auto run = [&](const SlopeDerivative& known) {
+    AdaptiveProblem problem{f, 1e-8, std::vector<double>(2, 1e-8)};
+    problem.derivative = known;
+    const auto radau = make_adaptive_integrator(AdaptiveMethod::radau, problem);
+    radau->start(0.0, y0, 1e-3);
+    finish(*radau, 150.0);
+    return End{radau->y()[0], radau->evaluations(), radau->steps()};
+  };
+  const End exact = run(derivative);
+  const int jacobians = asked;
+  const End differences = run(nullptr);
+  is_known = false;
+  const End unknown = run(derivative);
+  EXPECT_NEAR(exact.y, differences.y, 1e-6);
+  EXPECT_NEAR(static_cast<double>(exact.steps), static_cast<double>(differences.steps),
+              0.02 * static_cast<double>(differences.steps));
+  EXPECT_NEAR(static_cast<double>(differences.evaluations - exact.evaluations), 4.0 * jacobians,
+              0.4 * jacobians + 0.02 * static_cast<double>(differences.evaluations));
+  EXPECT_EQ(unknown.y, differences.y);
+  EXPECT_EQ(unknown.evaluations, differences.evaluations);
+}
+
 TEST(AdaptiveIntegrator, A_step_ends_where_it_must_and_the_next_keeps_its_length) {
   for (const AdaptiveMethod method : kMethods) {
     const auto run = make(method, swell, 1, 1e-6);

@@ -1,27 +1,16 @@
-// Forces in clearances ([AugUrb18] eqs. (13)-(17)): at every contact a normal force
+// A closure with clearance ([AugUrb18] eqs. (13)-(17)): at every contact a normal force
 // (core/laws/normal_contact.h) and LuGre friction (core/laws/lugre_friction.h) between journal and
 // bearing, equal and opposite at one point in space.
 //   on the journal   -N n at c + X,   -mu N t at K = c + r_b u
 //   (core/kinematics/contact_kinematics.h; there too: friction at two points)
 // Their power leaves the bodies as N delta_dot + mu N v_t: K delta^n delta_dot is stored, the rest
 // is dissipated (what the bristles store counts as dissipated).
-//
-// The approach speed of a contact is that of its beginning (or more, if it is driven faster later
-// and ApproachSpeed::greatest is asked for). In the step where it begins that speed is found from
-// the states around the crossing; a contact that is there at the start has begun with its rate.
 #pragma once
 
 #include "core/kinematics/contact_kinematics.h"
+#include "core/model/contact_approach.h"
 
 namespace linkstudy {
-
-template <class Real>
-inline Real approach_speed(ApproachSpeed which, const ContactMemory<Real>& memory, Real depth,
-                           Real rate) {
-  const Real begin = select(memory.touching > Real(0.5), memory.approach,
-                            crossing_speed(memory.depth, memory.rate, depth, rate));
-  return dividing_speed(which, begin, rate);
-}
 
 template <class Real>
 inline Real free_bristle_rate(FreeBristle rule, const ClearanceParameters<Real>& n, Real z) {
@@ -97,7 +86,8 @@ template <class Real>
 }
 
 template <class Real>
-inline void add_contacts(const Mechanism& m, const Parameters<Real>& p, Workspace<Real>& w) {
+inline void add_clearance_joints(const Mechanism& m, const Parameters<Real>& p,
+                                 Workspace<Real>& w) {
   BodyState<Real>* bodies = w.bodies.data();
   for_journals(m, p, w, [&](int c, const JournalInBearing<Real>& j) {
     const int index = at(m.clearances, c).closure;

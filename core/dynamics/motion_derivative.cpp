@@ -1,0 +1,168 @@
+#include "core/dynamics/motion_derivative.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "core/base/flush_denormals.h"
+#include "core/codegen/tangents.h"
+#include "core/codegen/traced.h"
+#include "core/dynamics/equations_of_motion.h"
+#include "core/model/parameter_numbers.h"
+
+namespace linkstudy {
+namespace {
+
+// Slots of a graph in a row: t, then parameters, memory, and the state, which is differentiated.
+class Tracer {
+ public:
+  Tracer(const Mechanism& m, codegen::Graph& graph)
+      : m_(m), graph_(graph), w_(make_workspace<Traced>(m)) {}
+
+  void trace(const Parameters<double>& sizes) {
+    const Traced t = input();
+    Parameters<Traced> p;
+    for_parameter_lists([](auto& to, const auto& from) { to.resize(from.size()); }, p, sizes);
+    for_parameter_numbers<Traced>(p, [this](Traced* x, std::size_t n) { read(x, n); });
+    memory = next_;
+    for (ContactMemory<Traced>& one : w_.memory) {
+      for (Traced* x : {&one.depth, &one.rate, &one.touching, &one.approach, &one.least_depth})
+        *x = input();
+    }
+    state = next_;
+    std::vector<Traced> q(static_cast<std::size_t>(m_.nq)), v(static_cast<std::size_t>(m_.nv));
+    read(q.data(), q.size());
+    read(v.data(), v.size());
+    read(w_.z.data(), w_.z.size());
+    end = next_;
+    evaluate(m_, p, t, q.data(), v.data(), w_);
+    std::vector<Traced> rates(q.size());
+    for (const Stage& s : m_.stages)
+      position_rates(s, q.data() + s.q, v.data() + s.v, rates.data() + s.q);
+    write(rates);
+    write(w_.qdd);
+    write(w_.z_rate);
+    write({w_.supplied_power, w_.dissipated_power});
+  }
+
+  int memory = 0, state = 0, end = 0;  // first slots
+
+ private:
+  Traced input() { return Traced::from(graph_.input(next_++)); }
+  void read(Traced* x, std::size_t n) {
+    for (std::size_t k = 0; k < n; ++k) x[k] = input();
+  }
+  void write(const std::vector<Traced>& x) {
+    for (const Traced& one : x) graph_.write(one.value, 0);
+  }
+
+  const Mechanism& m_;
+  codegen::Graph& graph_;
+  Workspace<Traced> w_;
+  int next_ = 0;
+};
+
+// The traced linkage, ready to be differentiated.
+struct Graphed {
+  Graphed(const Mechanism& m, const Parameters<double>& sizes) {
+    const FlushDenormals flush;
+    const codegen::Trace tracing(graph);
+    Tracer tracer(m, graph);
+    tracer.trace(sizes);
+    memory = tracer.memory;
+    state = tracer.state;
+    end = tracer.end;
+  }
+
+  codegen::Graph graph;
+  int memory = 0, state = 0, end = 0;
+};
+
+std::vector<int> slots_between(int begin, int end) {
+  std::vector<int> slots(static_cast<std::size_t>(end - begin));
+  std::iota(slots.begin(), slots.end(), begin);
+  return slots;
+}
+
+}  // namespace
+
+struct MotionDerivative::Code {
+  explicit Code(const Graphed& g)
+      : memory(g.memory),
+        state(g.state),
+        slots(static_cast<std::size_t>(g.end)),
+        tangents(g.graph, slots_between(g.state, g.end)) {}
+
+  int memory, state;
+  std::vector<double> slots;
+  codegen::Tangents tangents;
+};
+
+MotionDerivative::MotionDerivative(const Mechanism& m, const Parameters<double>& p)
+    : nq_(m.nq), nv_(m.nv), nz_(m.nz) {
+  try {
+    code_ = std::make_unique<Code>(Graphed(m, p));
+  } catch (const Untraceable&) {
+    return;  // update() says that nothing is known
+  }
+  matrix_.resize(code_->tangents.rows(), code_->tangents.columns());
+  set_parameters(p);
+}
+
+MotionDerivative::~MotionDerivative() = default;
+
+void MotionDerivative::set_parameters(const Parameters<double>& p) {
+  if (!code_) return;
+  auto to = code_->slots.begin() + 1;
+  for_parameter_numbers<double>(
+      p, [&](const double* x, std::size_t n) { to = std::copy_n(x, n, to); });
+}
+
+bool MotionDerivative::update(double t, const double* q, const double* v, const double* z,
+                              const std::vector<ContactMemory<double>>& memory) {
+  if (!code_) return false;
+  code_->slots.front() = t;
+  auto to = code_->slots.begin() + code_->memory;
+  for (const ContactMemory<double>& one : memory) {
+    for (const double x : {one.depth, one.rate, one.touching, one.approach, one.least_depth})
+      *to++ = x;
+  }
+  const auto copy = [&to](const double* x, int n) { to = std::copy_n(x, n, to); };
+  copy(q, nq_);
+  copy(v, nv_);
+  copy(z, nz_);
+  codegen::Tangents& tangents = code_->tangents;
+  const FlushDenormals flush;
+  if (!tangents.update(code_->slots)) return false;
+  for (int k = 0; k < tangents.columns(); ++k)
+    for (int i = 0; i < tangents.rows(); ++i) matrix_(i, k) = tangents.derivative(i, k);
+  return matrix_.allFinite();
+}
+
+MotionDerivative& derivative_of(const Model& model) {
+  constexpr std::size_t kKept = 8;  // structures: replacements and exact joints of a study
+  struct Kept {
+    MechanismStructure structure;
+    std::size_t numbers;
+    std::unique_ptr<MotionDerivative> derivative;
+  };
+  static thread_local std::vector<Kept> kept;  // the one asked for last is the last
+  std::size_t numbers = 0;
+  for_parameter_numbers<double>(model.parameters,
+                                [&](const double*, std::size_t n) { numbers += n; });
+  const MechanismStructure& structure = model.mechanism;
+  const auto same = [&](const Kept& one) {
+    return one.numbers == numbers && one.structure == structure;
+  };
+  const auto found = std::ranges::find_if(kept, same);
+  if (found != kept.end()) {
+    std::rotate(found, found + 1, kept.end());
+  } else {
+    if (kept.size() == kKept) kept.erase(kept.begin());
+    kept.push_back({structure, numbers,
+                    std::make_unique<MotionDerivative>(model.mechanism, model.parameters)});
+  }
+  kept.back().derivative->set_parameters(model.parameters);
+  return *kept.back().derivative;
+}
+
+}  // namespace linkstudy

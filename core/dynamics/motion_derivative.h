@@ -1,0 +1,47 @@
+// The equations of motion of a linkage, differentiated exactly: with x = (q, v, z)
+//   x' = (q', qdd, z')(t, x),   matrix() = d(x', P)/dx,   n = nq + nv + nz,
+// P the two powers that the energy ledger integrates: supplied and dissipated.
+// They are traced once for a structure (core/codegen/traced.h); numbers of all parameters serve.
+// Joints, closures, loads, springs, contacts and friction are in, each on its side of a bend.
+// Driven coordinates count as given: q and v of the state.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+
+#include "core/model/compile.h"
+#include "core/model/workspace.h"
+
+namespace linkstudy {
+
+class MotionDerivative {
+ public:
+  // Keeps no reference.
+  MotionDerivative(const Mechanism& m, const Parameters<double>& p);
+  ~MotionDerivative();
+  MotionDerivative(const MotionDerivative&) = delete;
+  MotionDerivative& operator=(const MotionDerivative&) = delete;
+
+  // Others of the same structure.
+  void set_parameters(const Parameters<double>& p);
+
+  // At (t, q, v, z), contacts as they remember. False where nothing is known: cut rows that depend
+  // on each other, friction in joints that does not settle in a few passes, a jump.
+  bool update(double t, const double* q, const double* v, const double* z,
+              const std::vector<ContactMemory<double>>& memory);
+
+  // (n + 2, n)
+  const Eigen::MatrixXd& matrix() const { return matrix_; }
+
+ private:
+  struct Code;
+  std::unique_ptr<Code> code_;
+  int nq_, nv_, nz_;
+  Eigen::MatrixXd matrix_;
+};
+
+// That of the structure of a model, with its parameters: kept for the next model of this structure
+// in this thread, until another call.
+MotionDerivative& derivative_of(const Model& model);
+
+}  // namespace linkstudy
