@@ -1,5 +1,7 @@
 #include "core/kinematics/pose_curve.h"
 
+#include "core/numerics/continuation.h"
+
 namespace linkstudy {
 namespace {
 
@@ -16,8 +18,7 @@ VectorXd PoseCurve::rising() const {
 }
 
 VectorXd PoseCurve::tangent(const State<double>& s, const VectorXd& sense) const {
-  const VectorXd t = decompose(s).v.rightCols<1>();
-  return t.dot(sense) < 0.0 ? VectorXd(-t) : t;
+  return unit_tangent(jacobian(s), sense);
 }
 
 std::optional<State<double>> PoseCurve::at(const State<double>& s, const VectorXd& way) const {
@@ -25,11 +26,7 @@ std::optional<State<double>> PoseCurve::at(const State<double>& s, const VectorX
   for (int i = 0; i < kIterations; ++i) {
     const VectorXd residual =
         compute_scaled_closures(linkage_.model(), linkage_.scale(), x).residual;
-    const SingularValues svd = decompose(x);
-    VectorXd step = VectorXd::Zero(count() + 1);
-    for (int k = 0; k < linkage_.rank(); ++k) {
-      step -= svd.v.col(k) * (svd.u.col(k).dot(residual) / svd.values[k]);
-    }
+    const VectorXd step = least_correction(jacobian(x), residual, linkage_.rank());
     if (!step.allFinite()) return std::nullopt;
     x = moved(x, step);
     if (step.norm() < kSettled) break;
@@ -43,7 +40,7 @@ double PoseCurve::way_between(const State<double>& a, const State<double>& b) co
   return way.dot(direction_) / direction_.norm();
 }
 
-SingularValues PoseCurve::decompose(const State<double>& s) const {
+MatrixXd PoseCurve::jacobian(const State<double>& s) const {
   const MatrixXd j = compute_scaled_closures(linkage_.model(), linkage_.scale(), s).jacobian;
   MatrixXd wide(j.rows(), count() + 1);
   VectorXd driven = VectorXd::Zero(j.rows());
@@ -51,7 +48,7 @@ SingularValues PoseCurve::decompose(const State<double>& s) const {
     driven += direction_[static_cast<Eigen::Index>(i)] * j.col(linkage_.drives()[i].velocity);
   }
   wide << take_columns(j, linkage_.dependent()), driven;
-  return decompose_singular(wide, SingularVectors::full);
+  return wide;
 }
 
 State<double> PoseCurve::moved(const State<double>& s, const VectorXd& way) const {

@@ -1,8 +1,9 @@
 // Closed poses as a curve: the dependent coordinates y and the way x of the drives along a
 // direction, which vary together so that
 //   (M, N direction) (y_dot, x_dot) = 0.
-// By its arc length the curve goes on where the drives turn back (a lock: x_dot = 0). Only where
-// the drives determine everything: elsewhere closed poses are no curve.
+// By its arc length (core/numerics/continuation.h) the curve goes on where the drives turn back (a
+// lock: x_dot = 0). Only where the drives determine everything: elsewhere closed poses are no
+// curve.
 #pragma once
 
 #include <optional>
@@ -33,7 +34,8 @@ class PoseCurve {
 
  private:
   Eigen::Index count() const { return static_cast<Eigen::Index>(linkage_.dependent().size()); }
-  SingularValues decompose(const State<double>& s) const;
+  // (rows, dependent + 1) of the curve's equations.
+  Eigen::MatrixXd jacobian(const State<double>& s) const;
   State<double> moved(const State<double>& s, const Eigen::VectorXd& way) const;
 
   const DrivenLinkage& linkage_;
