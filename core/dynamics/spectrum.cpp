@@ -143,16 +143,17 @@ MatrixXd position_rates_of(const Mechanism& m, const State<double>& s) {
   return rates;
 }
 
-// Rows of accelerations and bristles, exactly; false where that is not known.
+// Rows of accelerations and bristles, exactly; false where that is not known. A bristle at rest
+// sits on the corner of |v|, one side of which says little: differences reach across it.
 bool fill_exactly(const Model& model, const State<double>& s, const Workspace<double>& w,
                   MatrixXd& a) {
   const Mechanism& m = model.mechanism;
+  if (m.nz > 0) return false;
   MotionDerivative& derivative = derivative_of(model);
-  const std::vector<double>& z = s.z.size() == w.z.size() ? s.z : w.z;
-  if (!derivative.update(s.t, s.q.data(), s.v.data(), z.data(), w.memory)) return false;
-  const auto rows = derivative.matrix().middleRows(m.nq, m.nv + m.nz);
-  a.bottomLeftCorner(m.nv + m.nz, m.nv) = rows.leftCols(m.nq) * position_rates_of(m, s);
-  a.bottomRightCorner(m.nv + m.nz, m.nv + m.nz) = rows.rightCols(m.nv + m.nz);
+  if (!derivative.update(s.t, s.q.data(), s.v.data(), nullptr, w.memory)) return false;
+  const auto rows = derivative.matrix().middleRows(m.nq, m.nv);
+  a.bottomLeftCorner(m.nv, m.nv) = rows.leftCols(m.nq) * position_rates_of(m, s);
+  a.bottomRightCorner(m.nv, m.nv) = rows.rightCols(m.nv);
   return true;
 }
 
