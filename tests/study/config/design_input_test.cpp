@@ -11,7 +11,7 @@
 #include "study/config/toml_writer.h"
 #include "study/design/design.h"
 
-namespace linkstudy::testing::design_input_test {
+namespace linkstudy::design_input_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -245,4 +245,4 @@ TEST(DesignInput, A_sampled_value_without_effect_is_refused) {
 }
 
 }  // namespace
-}  // namespace linkstudy::testing::design_input_test
+}  // namespace linkstudy::design_input_test
