@@ -288,7 +288,13 @@ Fields<DesignOptions> design_fields() {
                           .meaning = "parameter = head of its column in file; default: heads are "
                                      "the parameters' paths, as plan --csv writes them",
                           .only = only_where("type", {list})});
-  design.finish([](DesignOptions&, Tree& table, const Reading& reading) {
+  design.finish([](DesignOptions& to, Tree& table, const Reading& reading) {
+    if (to.type == saltelli && to.samples == 1) {
+      reading.diagnostics.add(
+          table.find("samples")->at,
+          "design: samples of saltelli are blocks, and one tells nothing, got 1",
+          "take 64 or more");
+    }
     const Tree* columns = table.find("columns");
     if (columns == nullptr || table.find("file") != nullptr) return;
     reading.diagnostics.add(columns->at, "design: columns are those of a file, and none is given",

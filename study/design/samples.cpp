@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <boost/random/sobol.hpp>
+#include <map>
 #include <numeric>
 #include <utility>
 
@@ -49,11 +50,17 @@ double latin_hypercube_number(std::uint64_t seed, std::uint64_t n, std::uint64_t
   return (static_cast<double>(stratum) + within) / static_cast<double>(strata);
 }
 
+// Its direction numbers are made once for points of a length.
+boost::random::sobol& sequence_of(std::size_t k) {
+  thread_local std::map<std::size_t, boost::random::sobol> known;
+  return known.try_emplace(k, k).first->second;
+}
+
 // Boost's sequence leaves the zero point out.
 std::vector<std::uint64_t> sobol_bits(std::size_t k, std::uint64_t id) {
   std::vector<std::uint64_t> bits(k, 0);
   if (id == 0) return bits;
-  boost::random::sobol sequence(k);
+  boost::random::sobol& sequence = sequence_of(k);
   sequence.seed(id - 1);
   sequence.generate(bits.begin(), bits.end());
   return bits;

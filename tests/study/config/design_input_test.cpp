@@ -213,6 +213,8 @@ TEST(DesignInput, What_a_design_would_ignore_or_lacks_is_refused_with_a_remedy) 
       {lhs, mass("triangular = { low = 1, mode = 4, high = 3 }"), "must rise from low to high",
        "triangular = { low, mode, high }"},
       {lhs, mass("lin = [1, 2]") + mass("lin = [1, 2]"), "is listed twice", ""},
+      {"type = \"saltelli\", samples = 1", mass("lin = [1, 2]"), "one tells nothing, got 1",
+       "64 or more"},
       {saltelli, "", "there is nothing to sample", "name a parameter"},
       {"type = \"saltelli\", samples = 100000000", mass("lin = [1, 2]"),
        "100000000 x 3 points are more than", "use fewer"},
@@ -230,9 +232,9 @@ TEST(DesignInput, What_a_design_would_ignore_or_lacks_is_refused_with_a_remedy) 
 // The step must not exceed the end: true of some of the points alone.
 TEST(DesignInput, Points_of_samples_are_judged_as_models) {
   const std::string errors =
-      errors_of(study("type = \"sobol\", samples = 32",
+      errors_of(study("type = \"sobol\", samples = 64",
                       vary("simulation.step", "lin = [0.001, 0.1]") +
-                          vary("simulation.end_time", "lin = [0.05, 1.0]") + kPeak));
+                          vary("simulation.end_time", "lin = [0.05, 0.2]") + kPeak));
   EXPECT_THAT(errors, HasSubstr("simulation.step must not exceed end_time"));
 }
 
