@@ -76,11 +76,10 @@ std::string sensitivity_text(const Sensitivity& result, std::size_t width) {
     text += quantity_text(result, one, width);
   }
   if (result.failures.empty()) return text;
-  text += fmt::format(
-      "{} of {} failed; what is told holds where the others ran. Values of those that failed and "
-      "of those that ran:\n",
-      result.failed, counted(static_cast<std::int64_t>(result.evaluations), "evaluation"));
-  return text + text_of(sensitivity::make_failure_table(result), width) + "\n";
+  text += fmt::format("{} of {} failed; what is told holds where the others ran. Both lie at:\n",
+                      result.failed,
+                      counted(static_cast<std::int64_t>(result.evaluations), "evaluation"));
+  return text + text_of(sensitivity::make_failure_ranges(result), width) + "\n";
 }
 
 }  // namespace linkstudy

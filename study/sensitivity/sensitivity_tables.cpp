@@ -99,30 +99,62 @@ std::string interval_text(const Interval& interval) {
   return fmt::format("{:.3g} .. {:.3g}", interval.low, interval.high);
 }
 
+using Region = FailureRegion;
+
+// Columns that both forms of the failures begin with.
+TableOf<Region> begin_failures(const Sensitivity& result) {
+  TableOf<Region> table("failures", "failures", result.failures);
+  const auto parameter = [&result](const Region& r) { return result.parameters[r.parameter]; };
+  table.add("cause", "", "why they failed",
+            [](const Region& r) { return std::string(name_of(r.cause)); });
+  table.add("parameter", "", "that varies",
+            [parameter](const Region& r) { return parameter(r).path; });
+  table.add("unit", "", "of its values",
+            [parameter](const Region& r) { return parameter(r).unit; });
+  table.add("failed", "", "evaluations of this cause",
+            [](const Region& r) { return static_cast<std::int64_t>(r.count); });
+  return table;
+}
+
+void add_ok_count(TableOf<Region>& table) {
+  table.add("ok", "", "evaluations that ended ok",
+            [](const Region& r) { return static_cast<std::int64_t>(r.ok); });
+}
+
+void add_separation(TableOf<Region>& table) {
+  table.add(
+      "separation", "", "largest difference of both distribution functions, 1: apart",
+      [](const Region& r) { return r.separation; }, "{:.2f}");
+}
+
 }  // namespace
 
 Table make_failure_table(const Sensitivity& result) {
-  using Region = FailureRegion;
-  TableOf<Region> table("failures", "failures", result.failures);
-  const auto parameter = [&result](const Region& r) { return result.parameters[r.parameter]; };
-  const auto count = [](std::size_t n) { return static_cast<std::int64_t>(n); };
-  table.add("cause", "", "why they failed",
-            [](const Region& r) { return std::string(name_of(r.cause)); });
-  table.add("parameter", "", "that varies", [&](const Region& r) { return parameter(r).path; });
-  table.add("unit", "", "of its values", [&](const Region& r) { return parameter(r).unit; });
-  table.add("failed", "", "evaluations of this cause",
-            [&](const Region& r) { return count(r.count); });
+  TableOf<Region> table = begin_failures(result);
   table.add("failed_low", "", "least value of them", [](const Region& r) { return r.failed.low; });
   table.add("failed_median", "", "median", [](const Region& r) { return r.failed.median; });
   table.add("failed_high", "", "greatest", [](const Region& r) { return r.failed.high; });
-  table.add("ok", "", "evaluations that ended ok", [&](const Region& r) { return count(r.ok); });
+  add_ok_count(table);
   table.add("ok_low", "", "least value of these", [](const Region& r) { return r.ran.low; });
   table.add("ok_median", "", "median", [](const Region& r) { return r.ran.median; });
   table.add("ok_high", "", "greatest", [](const Region& r) { return r.ran.high; });
-  table.add(
-      "separation", "", "largest difference of both distribution functions, 1: apart",
-      [](const Region& r) { return r.separation; }, "{:.3f}");
+  add_separation(table);
   return table.take();
+}
+
+Table make_failure_ranges(const Sensitivity& result) {
+  TableOf<Region> table = begin_failures(result);
+  table.add("failed_at", "", "least and greatest value of them", [](const Region& r) {
+    return interval_text({r.failed.low, r.failed.high});
+  });
+  add_ok_count(table);
+  table.add("ok_at", "", "least and greatest value of these", [](const Region& r) {
+    return interval_text({r.ran.low, r.ran.high});
+  });
+  add_separation(table);
+  Table all = table.take();
+  all.name.clear();
+  return all;
 }
 
 std::vector<Table> make_tables(const Sensitivity& result) {

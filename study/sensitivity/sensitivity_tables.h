@@ -13,5 +13,7 @@ std::vector<Table> make_tables(const Sensitivity& result);
 Table make_quantity_table(const Sensitivity& result, const QuantitySensitivity& quantity);
 
 Table make_failure_table(const Sensitivity& result);
+// The same with values as ranges, for people.
+Table make_failure_ranges(const Sensitivity& result);
 
 }  // namespace linkstudy::sensitivity
