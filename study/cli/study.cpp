@@ -1,19 +1,31 @@
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "study/cli/input.h"
 #include "study/cli/run_points.h"
 #include "study/cli/verb_table.h"
 #include "study/report/console.h"
+#include "study/report/sensitivity_report.h"
 #include "study/report/summary_table.h"
 #include "study/report/write_table.h"
+#include "study/sensitivity/write_sensitivity.h"
 #include "study/session/end.h"
 #include "study/session/exit_code.h"
+#include "study/session/sensitivity_run.h"
 #include "study/session/study_points.h"
 
 namespace linkstudy {
 namespace {
 
-int finish(bool json, StudySession& session, StudyEnd end) {
+using Answer = std::optional<sensitivity::Sensitivity>;
+
+std::string result_text(const StudyRecord& record, const Answer& answer) {
+  return answer ? sensitivity_text(*answer, output_width())
+                : text_of(summary_table(record.results()), output_width());
+}
+
+int finish(bool json, StudySession& session, StudyEnd end, const Answer& answer) {
   StudyRecord& record = session.record();
   // A study of which nothing came out is no success, however many failures are accepted.
   if (end.code == kDone && !record.evaluations().empty() &&
@@ -25,11 +37,11 @@ int finish(bool json, StudySession& session, StudyEnd end) {
                           name_of(first.status), first.message.empty() ? "" : ": ", first.message));
   }
   if (json) {
-    print_out(to_json(end, record));
+    print_out(to_json(end, record, answer ? sensitivity::write_json(*answer) : ""));
     return end.code;
   }
   if (end.code != kExitResumable) {
-    print_out(text_of(summary_table(record.results()), output_width()));
+    print_out(result_text(record, answer));
     print_out(fmt::format("results digest: {}\n", end.digest));
   }
   return end.code;
@@ -39,8 +51,16 @@ int finish(bool json, StudySession& session, StudyEnd end) {
 
 int run_points(const CommandLine& line, const ReadInput& read) {
   return run_session(line, read, [&](StudySession& session) {
-    const std::vector<Point> points = points_of(session.evaluator().input());
-    return finish(line.json, session, end_study(session, [&] { session.evaluate(points); }));
+    Answer answer;
+    const StudyInput& input = session.evaluator().input();
+    StudyEnd end = end_study(session, [&] {
+      if (is_sensitivity(input.design.type)) {
+        answer = run_sensitivity(session);
+      } else {
+        session.evaluate(points_of(input));
+      }
+    });
+    return finish(line.json, session, std::move(end), answer);
   });
 }
 

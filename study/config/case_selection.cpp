@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "study/design/design.h"
 #include "study/record/sequence.h"
 
 namespace linkstudy {
@@ -44,8 +45,18 @@ std::vector<CasePositions> along_axes(const std::vector<std::size_t>& sizes, std
 
 }  // namespace
 
+std::vector<Axis> axes_of(const StudyInput& input) {
+  return {input.vary.begin(), input.vary.end()};
+}
+
+std::vector<std::uint64_t> choose_ids(const DesignOptions& design, const std::vector<Axis>& axes,
+                                      std::size_t most) {
+  const std::vector<std::size_t> ids = spaced(count_points(design, axes), most);
+  return {ids.begin(), ids.end()};
+}
+
 std::optional<std::uint64_t> count_cases(Design design, const std::vector<std::size_t>& sizes) {
-  if (design == Design::list && !sizes.empty()) return sizes.front();
+  if (design != Design::grid && !sizes.empty()) return sizes.front();
   std::uint64_t count = 1;
   for (const std::size_t size : sizes) {
     if (size > 0 && count > kMaxPoints / size) return std::nullopt;
@@ -57,7 +68,7 @@ std::optional<std::uint64_t> count_cases(Design design, const std::vector<std::s
 std::vector<CasePositions> choose_cases(Design design, const std::vector<std::size_t>& sizes,
                                         std::size_t most) {
   std::vector<CasePositions> cases;
-  if (design == Design::list && !sizes.empty()) {
+  if (design != Design::grid && !sizes.empty()) {
     for (const std::size_t i : spaced(sizes.front(), most)) cases.emplace_back(sizes.size(), i);
     return cases;
   }

@@ -113,6 +113,10 @@ class CsvReader {
     const std::optional<std::size_t> column = find_head(wanted.column);
     MeasuredChannel channel;
     if (!column || !read_unit(*column, channel)) return array;
+    if (wanted.holds_words) {
+      read_words(*column, array);
+      return array;
+    }
     const std::string unit = channel.unit ? find_unit(*channel.unit, wanted.units) : std::string();
     if (channel.unit && unit.empty()) {
       report(lines_.front(), *column,
@@ -180,6 +184,20 @@ class CsvReader {
     return {};
   }
 
+  void read_words(std::size_t column, Tree& array) {
+    for (std::size_t row = 1; row < lines_.size(); ++row) {
+      const CsvLine& line = lines_[row];
+      const std::string word = column < line.cells.size() ? line.cells[column].text : "";
+      if (word.empty()) {
+        report(line, column, "this line has no word in the column", "every line needs its own");
+      } else if (word == "true" || word == "false") {
+        array.items.push_back(Tree::make_boolean(word == "true", place(line, column)));
+      } else {
+        array.items.push_back(Tree::make_text(word, place(line, column)));
+      }
+    }
+  }
+
   // Of a line that must have one.
   std::optional<double> written_number(const CsvLine& line, std::size_t column) {
     const std::size_t before = reports_;
@@ -188,7 +206,7 @@ class CsvReader {
     if (std::isfinite(number)) return number;
     if (reports_ == before) {
       report(line, column, "this line has no number in the column",
-             "every line of a table needs both of its numbers");
+             "every line of a table needs all of its numbers");
     }
     return std::nullopt;
   }
@@ -270,6 +288,21 @@ std::shared_ptr<const MeasuredData> parse_measured_data(std::string text, const 
   }
   diagnostics.append(found);
   return found.empty() ? data : nullptr;
+}
+
+std::vector<WantedColumn> list_columns(const std::string& text, const std::string& path) {
+  std::vector<WantedColumn> columns;
+  const std::vector<CsvLine> lines = split_text(text);
+  if (lines.empty()) return columns;
+  const std::shared_ptr<const std::string> file = make_location(path).file;
+  for (const CsvCell& head : lines.front().cells) {
+    const Location at{file, lines.front().number, head.column};
+    const bool has_unit = !head.text.empty() && head.text.back() == ']';
+    const std::string name =
+        head.text.substr(0, has_unit ? head.text.rfind('[') : head.text.size());
+    columns.push_back({without_blanks(name), at, head.text, at});
+  }
+  return columns;
 }
 
 std::optional<std::vector<Tree>> parse_arrays(const std::string& text, const std::string& path,

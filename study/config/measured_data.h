@@ -37,10 +37,11 @@ struct WantedColumn {
   Location head_at;
 };
 
-// A column whose numbers are an array of an input.
+// A column whose cells are an array of an input.
 struct WantedArray {
   WantedColumn column;
-  std::string units;  // "N|N m": the head has a unit of one of them, or none
+  std::string units;         // "N|N m": the head has a unit of one of them, or none
+  bool holds_words = false;  // in place of numbers
 };
 
 // The text of a file; one that cannot be opened is reported at `at`.
@@ -53,8 +54,11 @@ std::shared_ptr<const MeasuredData> parse_measured_data(std::string text, const 
                                                         const std::vector<WantedColumn>& wanted,
                                                         Diagnostics& diagnostics);
 
+// The columns of a text by their heads: the channel is the head without its unit.
+std::vector<WantedColumn> list_columns(const std::string& text, const std::string& path);
+
 // The columns as arrays of numbers in the unit that was wanted, each with its place in the file.
-// Nothing when anything was reported: here every line needs its number.
+// Nothing when anything was reported: here every line needs its number, or its word.
 std::optional<std::vector<Tree>> parse_arrays(const std::string& text, const std::string& path,
                                               const Location& at,
                                               const std::vector<WantedArray>& wanted,

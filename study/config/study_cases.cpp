@@ -8,6 +8,7 @@
 
 #include "study/config/case_selection.h"
 #include "study/config/precedence.h"
+#include "study/design/design.h"
 #include "study/record/sequence.h"
 
 namespace linkstudy {
@@ -146,11 +147,11 @@ class CaseCheck {
   void run() {
     std::vector<LoadCaseInput> load_cases = input_.load_case;
     if (load_cases.empty()) load_cases.emplace_back();
-    const std::vector<CasePositions> cases = chosen_cases();
+    const std::vector<std::vector<Override>> cases = chosen_cases();
     for (const LoadCaseInput& load_case : load_cases) {
       try_reference(load_case);
       std::vector<Watched> own = watch(load_case.set);
-      for (const CasePositions& positions : cases) try_case(load_case, positions, own);
+      for (const std::vector<Override>& point : cases) try_case(load_case, point, own);
       sets_.insert(sets_.end(), own.begin(), own.end());
     }
     if (!diagnostics_.empty() || models_ == 0) return;
@@ -161,10 +162,36 @@ class CaseCheck {
   }
 
  private:
-  std::vector<CasePositions> chosen_cases() const {
+  std::vector<std::vector<Override>> chosen_cases() const {
+    std::vector<std::vector<Override>> cases;
+    if (!combines_values(input_.design.type)) {
+      const std::vector<Axis> axes = axes_of(input_);
+      for (const std::uint64_t id : choose_ids(input_.design, axes, most_trials(input_))) {
+        cases.push_back(sample(axes, id));
+      }
+      return cases;
+    }
     std::vector<std::size_t> sizes;
     for (const std::vector<Tree>& values : written_) sizes.push_back(values.size());
-    return choose_cases(input_.design, sizes, most_trials(input_));
+    for (const CasePositions& positions :
+         choose_cases(input_.design.type, sizes, most_trials(input_))) {
+      std::vector<Override>& point = cases.emplace_back();
+      for (std::size_t i = 0; i < positions.size(); ++i) {
+        const Tree& value = written_[i][positions[i]];
+        point.push_back({varied_[i].path, value, value.at});
+      }
+    }
+    return cases;
+  }
+
+  std::vector<Override> sample(const std::vector<Axis>& axes, std::uint64_t id) const {
+    std::vector<Override> point;
+    const std::vector<Value> values = make_point(input_.design, axes, id).values;
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+      point.push_back(make_override(axes[i].parameter.path, values[i]));
+      point.back().value.at = point.back().origin = varied_[i].at;
+    }
+    return point;
   }
 
   // What one place is wrong about is said once, by the first case.
@@ -189,14 +216,9 @@ class CaseCheck {
     return model;
   }
 
-  void try_case(const LoadCaseInput& load_case, const CasePositions& positions,
+  void try_case(const LoadCaseInput& load_case, const std::vector<Override>& point,
                 std::vector<Watched>& own) {
-    std::vector<Override> point;
-    for (std::size_t i = 0; i < positions.size(); ++i) {
-      const Tree& value = written_[i][positions[i]];
-      point.push_back({varied_[i].path, value, value.at});
-    }
-    const auto model = build(*input_.model, case_overrides(input_, load_case, std::move(point)));
+    const auto model = build(*input_.model, case_overrides(input_, load_case, point));
     if (!model) return;
     for (std::vector<Watched>* all : {&varied_, &sets_, &options_, &own}) {
       for (Watched& one : *all) one.look(model->resolved, verb_);
@@ -251,11 +273,12 @@ class CaseCheck {
 };
 
 // The entry whose values make too many cases of those before it.
-bool report_size(const StudyInput& input, const WrittenValues& written, Diagnostics& diagnostics) {
+bool report_grid_size(const StudyInput& input, const WrittenValues& written,
+                      Diagnostics& diagnostics) {
   std::vector<std::size_t> sizes;
   for (std::size_t i = 0; i < written.size(); ++i) {
     sizes.push_back(written[i].size());
-    if (count_cases(input.design, sizes)) continue;
+    if (count_cases(input.design.type, sizes)) continue;
     diagnostics.add(place_of(input, i),
                     fmt::format("the grid of {} cases up to here has more than the {} allowed",
                                 fmt::join(sizes, " x "), kMaxPoints),
@@ -265,11 +288,34 @@ bool report_size(const StudyInput& input, const WrittenValues& written, Diagnost
   return false;
 }
 
+// Of designs whose numbers of points are not those of values.
+bool report_design(const StudyInput& input, Diagnostics& diagnostics) {
+  if (is_sensitivity(input.design.type) && input.match.empty() && input.response.empty()) {
+    diagnostics.add(
+        locate(input.resolved, "design.type"),
+        fmt::format("a design of type '{}' tells sensitivities, and no quantity is kept",
+                    name_of(input.design.type)),
+        "add a [[response]] or a [[match]]");
+  }
+  try {
+    count_points(input.design, axes_of(input));
+    return false;
+  } catch (const std::invalid_argument& reason) {
+    if (!diagnostics.empty()) return true;  // what an entry lacks has been said
+    const std::string message = reason.what();
+    const std::size_t cut = message.find("; ");
+    diagnostics.add(locate(input.resolved, "design.type"), message.substr(0, cut),
+                    cut == std::string::npos ? "use fewer" : message.substr(cut + 2));
+    return true;
+  }
+}
+
 }  // namespace
 
 void merge_equal_values(StudyInput& input, WrittenValues& written, Diagnostics& diagnostics) {
   if (input.vary.size() != written.size()) return;
-  if (input.design == Design::list) {
+  if (!combines_values(input.design.type)) return;
+  if (input.design.type != Design::grid) {
     if (!written.empty()) merge_rows(input, written, 0, written.size(), diagnostics);
     return;
   }
@@ -280,7 +326,10 @@ void merge_equal_values(StudyInput& input, WrittenValues& written, Diagnostics& 
 void check_cases(const StudyInput& input, const WrittenValues& written,
                  std::span<const Override> command_line, Diagnostics& diagnostics) {
   if (!input.model) return;
-  if (has_design(input.kind) && report_size(input, written, diagnostics)) return;
+  if (has_design(input.kind)) {
+    if (report_grid_size(input, written, diagnostics)) return;
+    if (!combines_values(input.design.type) && report_design(input, diagnostics)) return;
+  }
   CaseCheck(input, written, command_line, diagnostics).run();
 }
 

@@ -7,7 +7,8 @@
 #include "study/config/measured_input.h"
 #include "study/config/model_document.h"
 #include "study/config/search_options.h"
-#include "study/record/design_kind.h"
+#include "study/design/axis.h"
+#include "study/design/design_options.h"
 
 namespace linkstudy {
 
@@ -52,9 +53,8 @@ struct ReferenceInput {
   bool is_run() const { return !measured; }
 };
 
-struct VaryInput {
-  Parameter parameter;
-  std::vector<Value> values;  // numbers in parameter.unit, or words
+// Numbers are in parameter.unit.
+struct VaryInput : Axis {
   Location at;
 };
 
@@ -164,7 +164,7 @@ struct StudyInput {
   std::shared_ptr<const ModelDocument> model;
   std::optional<ReferenceInput> reference;
   std::vector<Override> base_set;
-  Design design = Design::grid;
+  DesignOptions design;
   std::vector<VaryInput> vary;
   std::vector<RefineInput> refine;  // by vary
   std::vector<TuneInput> tune;

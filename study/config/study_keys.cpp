@@ -187,33 +187,133 @@ Fields<Record> ladder_fields() {
   return ladder;
 }
 
-// Their values are of the units of the model: study_reader.cpp reads them.
+// Their values are of the units of the model: study_reader.cpp reads them. `counts`: entries of lin
+// and log, which axis_reader.cpp tells apart by the design.
 template <class Record>
-void add_values(Fields<Record>& vary) {
+void add_values(Fields<Record>& vary, const std::vector<int>& counts,
+                const std::string& else_range) {
   add_parameter(vary);
-  const auto add_list = [&](const char* key, const char* meaning, std::vector<int> counts) {
+  const auto add_list = [&](const char* key, const std::string& meaning, std::vector<int> lengths) {
     vary.read(key, {.type = scalars, .meaning = meaning, .required = true, .group = "values"});
-    vary.back().counts = std::move(counts);
+    vary.back().counts = std::move(lengths);
   };
   add_list("values", "the values: numbers, texts with units, or words", {});
-  add_list("lin", "[first, last, count], equally spaced", {3});
-  add_list("log", "[first, last, count], equal ratios", {3});
+  add_list("lin", "[first, last, count], equally spaced" + else_range, counts);
+  add_list("log", "[first, last, count], equal ratios" + else_range, counts);
   vary.table(
       "ladder",
       {.meaning = "from, from*ratio, from*ratio^2, ...", .required = true, .group = "values"},
       ladder_fields<Record>());
 }
 
+Fields<Study> around_fields() {
+  Fields<Study> around;
+  around.read("center", {.type = scalar, .meaning = "the middle; default: the model's value"});
+  around.read("step", {.type = scalar,
+                       .meaning = "difference of neighbours",
+                       .required = true,
+                       .group = "spacing"});
+  around.read("ratio", {.meaning = "ratio of neighbours, not 1",
+                        .range = kPositive,
+                        .required = true,
+                        .group = "spacing"});
+  around.read("steps", {.type = integer,
+                        .meaning = "number of values on either side",
+                        .range = {.low = 1, .high = 1.0e6},
+                        .required = true});
+  return around;
+}
+
+void add_distributions(Fields<Study>& vary) {
+  const auto add = [](Fields<Study>& table, const char* key, const char* meaning, bool required) {
+    table.read(key, {.type = scalar, .meaning = meaning, .required = required});
+  };
+  Fields<Study> normal;
+  add(normal, "mean", "of the distribution without bounds", true);
+  add(normal, "deviation", "standard deviation of the same", true);
+  add(normal, "low", "no sample is below; default: no bound", false);
+  add(normal, "high", "no sample is above; default: no bound", false);
+  vary.table("normal",
+             {.meaning = "samples follow a normal distribution, cut off at its bounds; without "
+                         "them they reach 8.2 deviations",
+              .required = true,
+              .group = "values"},
+             std::move(normal));
+  Fields<Study> triangular;
+  add(triangular, "low", "no sample is below", true);
+  add(triangular, "mode", "the most likely value", true);
+  add(triangular, "high", "no sample is above", true);
+  vary.table(
+      "triangular",
+      {.meaning = "samples follow a triangular distribution", .required = true, .group = "values"},
+      std::move(triangular));
+}
+
+Fields<DesignOptions> design_fields() {
+  using enum Design;
+  Fields<DesignOptions> design;
+  design.add("type", &DesignOptions::type, {.meaning = "which points"});
+  design.add("samples", &DesignOptions::samples,
+             {.meaning = "number of samples; of saltelli of blocks of 2 + parameters points. "
+                         "Powers of two are best; of latin_hypercube twice as many keep the "
+                         "earlier ones, of the others any more do",
+              .range = {.low = 1, .high = 1.0e8},
+              .required = true,
+              .only = only_where("type", {latin_hypercube, sobol, saltelli})});
+  design.add("steps", &DesignOptions::steps,
+             {.meaning = "number of steps from first to last",
+              .range = {.low = 1, .high = 1.0e6},
+              .required = true,
+              .only = only_where("type", {vector})});
+  design.add("trajectories", &DesignOptions::trajectories,
+             {.meaning = "number of trajectories of 1 + parameters points",
+              .range = {.low = 2, .high = 1.0e8},
+              .required = true,
+              .only = only_where("type", {morris})});
+  design.add("levels", &DesignOptions::levels,
+             {.meaning = "levels of every range, an even number",
+              .range = {.low = 2, .high = 1.0e6},
+              .only = only_where("type", {morris})},
+             [](DesignOptions& to, Tree& value, const Reading& reading) {
+               if (to.levels % 2 == 0) return;
+               reading.report(value, fmt::format("design: levels must be even, got {}", to.levels),
+                              "all levels are as likely then: 4, 6 or 8");
+             });
+  design.read("file", {.type = text,
+                       .meaning = "CSV file, relative to this file, that holds the points, in "
+                                  "place of [[vary]]: a column a parameter, a unit in brackets at "
+                                  "the end of its head",
+                       .only = only_where("type", {list})});
+  design.read("columns", {.type = overrides,
+                          .meaning = "parameter = head of its column in file; default: heads are "
+                                     "the parameters' paths, as plan --csv writes them",
+                          .only = only_where("type", {list})});
+  design.finish([](DesignOptions& to, Tree& table, const Reading& reading) {
+    if (to.type == saltelli && to.samples == 1) {
+      reading.diagnostics.add(
+          table.find("samples")->at,
+          "design: samples of saltelli are blocks, and one tells nothing, got 1",
+          "take 64 or more");
+    }
+    const Tree* columns = table.find("columns");
+    if (columns == nullptr || table.find("file") != nullptr) return;
+    reading.diagnostics.add(columns->at, "design: columns are those of a file, and none is given",
+                            "add file = \"points.csv\", or leave columns out");
+  });
+  return design;
+}
+
 void add_vary(Fields<Study>& study) {
   Fields<Study> vary;
-  add_values(vary);
+  add_values(vary, {2, 3}, "; of a vector [first, last], of samples [lowest, highest]");
+  vary.table("around",
+             {.meaning = "steps to both sides of a centre", .required = true, .group = "values"},
+             around_fields());
+  add_distributions(vary);
   study.tables("vary", {.meaning = "varied model values; without any the model runs once"},
                std::move(vary));
-  Fields<Study> design;
-  design.add("type", &Study::design,
-             {.planned = {"centered", "vector", "latin_hypercube", "sobol"}});
-  study.table("design", {.meaning = "how [[vary]] entries combine", .standard = "{}"},
-              std::move(design));
+  study.table("design", &Study::design,
+              {.meaning = "how [[vary]] entries combine", .standard = "{}"}, design_fields());
 }
 
 void add_objective(Fields<Study>& study) {
@@ -316,7 +416,7 @@ std::optional<Tree> usual_limit(const Tree& refine) {
 
 void add_refine(Fields<Study>& study) {
   Fields<RefineInput> refine;
-  add_values(refine);
+  add_values(refine, {3}, "");
   refine.add("limit", &RefineInput::limit,
              {.meaning = "where finer values lead; default: infinity of stiffness, segments, young "
                          "and shear, else zero",

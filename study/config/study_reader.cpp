@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "study/config/axis_reader.h"
 #include "study/config/calibrate_reader.h"
 #include "study/config/fill.h"
 #include "study/config/measured_reader.h"
 #include "study/config/named_parameter.h"
+#include "study/config/point_file.h"
 #include "study/config/precedence.h"
 #include "study/config/refine_checks.h"
 #include "study/config/study_cases.h"
@@ -14,7 +16,6 @@
 #include "study/config/study_input.h"
 #include "study/config/toml_reader.h"
 #include "study/config/validate.h"
-#include "study/config/value_list.h"
 #include "study/config/value_path.h"
 
 namespace linkstudy {
@@ -51,8 +52,8 @@ class StudyReader {
     if (input_.model) read_parameters();
     read_measured(input_, texts_ == nullptr ? nullptr : &texts_->data, earlier_, diagnostics_);
     require_one_source(model_set_, input_, diagnostics_);
-    if (has_rows_) check_cases(input_, written_, model_set_, diagnostics_);
     input_.resolved = study_;
+    if (has_rows_) check_cases(input_, written_, model_set_, diagnostics_);
     return std::move(input_);
   }
 
@@ -125,6 +126,11 @@ class StudyReader {
 
   void read_parameters() {
     const ModelDocument document = base_document();
+    input_.design.seed = input_.run.seed;
+    if (has_point_file(study_) && !read_point_file(study_, input_.file, document, diagnostics_)) {
+      has_rows_ = false;
+      return;
+    }
     if (input_.kind == FileKind::calibrate) {
       written_ = read_calibrated(document, study_, input_, diagnostics_);
       check_experiments(input_, diagnostics_);
@@ -148,7 +154,7 @@ class StudyReader {
     if (!entry.is(Kind::table) || path == nullptr || !path->is(Kind::text)) return;
     const auto named = find_named_parameter(document, *path, diagnostics_);
     if (!named) return;
-    const auto& [parameter, row] = *named;
+    const Parameter& parameter = named->parameter;
     for (const std::string& known : paths_) {
       if (known != path->text) continue;
       diagnostics_.add(path->at, fmt::format("parameter '{}' is listed twice", known),
@@ -157,13 +163,14 @@ class StudyReader {
     }
     paths_.push_back(path->text);
     if (input_.kind == FileKind::tune) return read_tune(entry, *named);
-    std::vector<Tree> values =
-        read_value_list(entry, *row, parameter.unit, parameter.path, diagnostics_);
-    if (values.empty()) return;
-    VaryInput vary{parameter, {}, path->at};
-    for (const Tree& value : values) vary.values.push_back(to_value(value));
+    std::optional<ReadAxis> axis = read_axis(entry, *named, input_.design, document, diagnostics_);
+    if (!axis) return;
+    VaryInput vary{{parameter, {}, axis->center, axis->distribution}, path->at};
+    if (!axis->distribution) {
+      for (const Tree& value : axis->values) vary.values.push_back(to_value(value));
+    }
     input_.vary.push_back(std::move(vary));
-    written_.push_back(std::move(values));
+    written_.push_back(std::move(axis->values));
   }
 
   static Value to_value(const Tree& value) {
@@ -183,7 +190,7 @@ class StudyReader {
   }
 
   bool have_equal_lengths() {
-    if (input_.design != Design::list) return true;
+    if (input_.design.type != Design::list) return true;
     bool are_equal = true;
     for (const VaryInput& vary : input_.vary) {
       const std::size_t first = input_.vary.front().values.size();
@@ -207,7 +214,7 @@ class StudyReader {
   StudyInput input_;
   std::vector<std::string> paths_;
   WrittenValues written_;  // one list for each entry of vary or tune
-  bool has_rows_ = true;   // false: a list whose values do not pair
+  bool has_rows_ = true;   // false: a list whose values do not pair, or a file that was reported
 };
 
 // The study's own keys; everything else belongs to the model.

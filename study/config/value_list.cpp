@@ -18,8 +18,8 @@ constexpr double kMostValues = 1.0e6;
 class ValueLister {
  public:
   ValueLister(const KeyRow& row, const std::string& unit, const std::string& parameter,
-              Diagnostics& diagnostics)
-      : row_(row), unit_(unit), parameter_(parameter), diagnostics_(diagnostics) {}
+              std::optional<std::size_t> count, Diagnostics& diagnostics)
+      : row_(row), unit_(unit), parameter_(parameter), count_(count), diagnostics_(diagnostics) {}
 
   std::vector<Tree> read(Tree& vary) {
     if (Tree* list = vary.find("values")) return read_values(*list);
@@ -56,9 +56,19 @@ class ValueLister {
   std::vector<Tree> read_interval(Tree& list, const std::string& form) {
     Tree& first = list.items[0];
     Tree& last = list.items[1];
-    const Tree& count = list.items[2];
     const bool first_is_right = is_right(first);
     if (!is_right(last) || !first_is_right) return {};
+    const std::optional<std::size_t> n = count_ ? count_ : read_count(list.items[2], form);
+    if (!n) return {};
+    const bool is_log = form == "log";
+    if (is_log && !(first.as_number() > 0.0 && last.as_number() > 0.0)) {
+      fail(list, fmt::format("log needs positive ends, got {}", shown(list)), "use lin");
+      return {};
+    }
+    return interval(first, last, *n, is_log);
+  }
+
+  std::optional<std::size_t> read_count(const Tree& count, const std::string& form) {
     const double n = count.is_numeric() ? count.as_number() : 0.0;
     if (!(n >= 2.0 && n <= kMostValues && n == std::floor(n))) {
       fail(count,
@@ -66,14 +76,9 @@ class ValueLister {
                        n > kMostValues ? fmt::format("most {:.0f}", kMostValues) : "least 2",
                        shown(count)),
            fmt::format("{} = [first, last, count]", form));
-      return {};
+      return std::nullopt;
     }
-    const bool is_log = form == "log";
-    if (is_log && !(first.as_number() > 0.0 && last.as_number() > 0.0)) {
-      fail(list, fmt::format("log needs positive ends, got {}", shown(list)), "use lin");
-      return {};
-    }
-    return interval(first, last, static_cast<std::size_t>(n), is_log);
+    return static_cast<std::size_t>(n);
   }
 
   static std::vector<Tree> interval(const Tree& first, const Tree& last, std::size_t n,
@@ -112,6 +117,7 @@ class ValueLister {
   const KeyRow& row_;
   const std::string& unit_;
   const std::string& parameter_;
+  std::optional<std::size_t> count_;
   Diagnostics& diagnostics_;
 };
 
@@ -151,8 +157,9 @@ bool validate_value(Tree& value, const KeyRow& row, const std::string& unit,
 }
 
 std::vector<Tree> read_value_list(Tree& vary, const KeyRow& row, const std::string& unit,
-                                  const std::string& parameter, Diagnostics& diagnostics) {
-  return ValueLister(row, unit, parameter, diagnostics).read(vary);
+                                  const std::string& parameter, std::optional<std::size_t> count,
+                                  Diagnostics& diagnostics) {
+  return ValueLister(row, unit, parameter, count, diagnostics).read(vary);
 }
 
 }  // namespace linkstudy

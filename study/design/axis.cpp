@@ -13,11 +13,11 @@ Axis make_axis(Parameter parameter, const std::vector<double>& numbers) {
   return {std::move(parameter), std::vector<Value>(numbers.begin(), numbers.end())};
 }
 
-void check_axes(const std::vector<Axis>& axes) {
+void check_axes(const std::vector<Axis>& axes, bool is_sampled) {
   std::set<std::string> seen;
   for (const Axis& axis : axes) {
     const std::string& path = axis.parameter.path;
-    if (axis.values.empty())
+    if (is_sampled ? !axis.distribution : axis.values.empty())
       throw std::invalid_argument(
           fmt::format("'{}' has no values to take; give one or leave it out", path));
     if (!seen.insert(path).second)

@@ -8,6 +8,7 @@
 #include "study/config/case_selection.h"
 #include "study/config/precedence.h"
 #include "study/config/value_path.h"
+#include "study/design/design.h"
 #include "study/metrics/common_grid.h"
 #include "study/metrics/response_list.h"
 
@@ -85,21 +86,41 @@ class TimesCheck {
 
   // Of a grid, axes that leave the times alone stay at their first value.
   std::vector<std::vector<Override>> points_of_study() const {
+    if (!combines_values(input_.design.type)) return points_of_samples();
     std::vector<std::size_t> sizes;
     for (const VaryInput& vary : input_.vary) {
-      const bool counts = input_.design == Design::list || decides_times(vary.parameter.path);
+      const bool counts = input_.design.type != Design::grid || decides_times(vary.parameter.path);
       sizes.push_back(counts ? vary.values.size() : 1);
     }
     std::vector<std::vector<Override>> points;
-    for (const CasePositions& positions : choose_cases(input_.design, sizes, kMostCases)) {
-      std::vector<Override>& point = points.emplace_back();
+    for (const CasePositions& positions : choose_cases(input_.design.type, sizes, kMostCases)) {
+      std::vector<Value> values;
       for (std::size_t i = 0; i < positions.size(); ++i) {
-        const VaryInput& vary = input_.vary[i];
-        point.push_back(make_override(vary.parameter.path, vary.values[positions[i]]));
-        point.back().value.at = vary.at;
+        values.push_back(input_.vary[i].values[positions[i]]);
       }
+      points.push_back(overrides_of(values));
     }
     return points;
+  }
+
+  std::vector<std::vector<Override>> points_of_samples() const {
+    const bool decide = std::ranges::any_of(
+        input_.vary, [](const VaryInput& one) { return decides_times(one.parameter.path); });
+    const std::vector<Axis> axes = axes_of(input_);
+    std::vector<std::vector<Override>> points;
+    for (const std::uint64_t id : choose_ids(input_.design, axes, decide ? kMostCases : 1)) {
+      points.push_back(overrides_of(make_point(input_.design, axes, id).values));
+    }
+    return points;
+  }
+
+  std::vector<Override> overrides_of(const std::vector<Value>& values) const {
+    std::vector<Override> point;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      point.push_back(make_override(input_.vary[i].parameter.path, values[i]));
+      point.back().value.at = input_.vary[i].at;
+    }
+    return point;
   }
 
   static bool decides_times(const std::string& path) {

@@ -34,6 +34,8 @@ constexpr const char* kNotFitted = "only a calibration that has its answer holds
 constexpr const char* kNotTuned = "only a tune that has its answer holds it";
 constexpr const char* kNotConverged = "only a converge that has all its levels holds it";
 
+constexpr const char* kNoSensitivity =
+    "only a study of a design of type morris or saltelli that has all its points holds it";
 constexpr const char* kNoStatics = "only results of statics hold it";
 constexpr const char* kNoKinematics =
     "only results of kinematics hold it, of a course along which something is driven";
@@ -46,7 +48,7 @@ Made summary_of(const StudyResults& results) {
   return summary_table(results);
 }
 
-constexpr std::array<ResultsTable, 26> kTables = {{
+constexpr std::array<ResultsTable, 28> kTables = {{
     {"summary",
      "what varies, the worst errors in percent, responses, status; by load case. Of statics and "
      "kinematics what was found, in words",
@@ -94,6 +96,12 @@ constexpr std::array<ResultsTable, 26> kTables = {{
     {"orders", "of every refined quantity: class, orders, limit, and what the wanted error needs",
      [](const StudyResults& r) { return part_of(AnswerKind::convergence, r, "orders"); },
      kNotConverged},
+    {"sensitivity", "effects or shares of the variance of every parameter, with their intervals",
+     [](const StudyResults& r) { return part_of(AnswerKind::sensitivity, r, "sensitivity"); },
+     kNoSensitivity},
+    {"failures", "where in the ranges of the parameters evaluations failed, by cause",
+     [](const StudyResults& r) { return part_of(AnswerKind::sensitivity, r, "failures"); },
+     "nothing failed, or these are no results of a design of type morris or saltelli"},
     {"equilibrium", "coordinates, reactions, holds, closures and points at the equilibrium",
      [](const StudyResults& r) { return part_of(AnswerKind::statics, r, "equilibrium"); },
      kNoStatics},

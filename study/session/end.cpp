@@ -10,16 +10,17 @@
 
 namespace linkstudy {
 
-std::string to_json(const StudyEnd& end, const StudyRecord& record) {
+std::string to_json(const StudyEnd& end, const StudyRecord& record,
+                    const std::string& sensitivity) {
   nlohmann::ordered_json failed = nlohmann::ordered_json::object();
   for (const auto& [cause, count] : record.failures()) failed[std::string(name_of(cause))] = count;
-  const nlohmann::ordered_json json = {
-      {"status", end.status},
-      {"evaluations", record.evaluations().size()},
-      {"done", record.evaluations().size() - record.failure_count()},
-      {"failed", failed},
-      {"digest", end.digest},
-      {"results", record.results_path().string()}};
+  nlohmann::ordered_json json = {{"status", end.status},
+                                 {"evaluations", record.evaluations().size()},
+                                 {"done", record.evaluations().size() - record.failure_count()},
+                                 {"failed", failed},
+                                 {"digest", end.digest},
+                                 {"results", record.results_path().string()}};
+  if (!sensitivity.empty()) json["sensitivity"] = nlohmann::ordered_json::parse(sensitivity);
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 

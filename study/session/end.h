@@ -17,7 +17,9 @@ struct StudyEnd {
 
 // Evaluations, failures by cause, digest and place of the results: the object of `study --json`,
 // and of a tune that has no answer.
-std::string to_json(const StudyEnd& end, const StudyRecord& record);
+// `sensitivity`: what a design of blocks tells, a JSON object, or empty.
+std::string to_json(const StudyEnd& end, const StudyRecord& record,
+                    const std::string& sensitivity = {});
 
 StudyEnd end_study(StudySession& session, const std::function<void()>& work);
 

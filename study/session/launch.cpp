@@ -113,7 +113,7 @@ class Launch {
     Diagnostics diagnostics;
     evaluator_ = make_evaluator(input, diagnostics);
     throw_if_any(diagnostics);
-    if (has_design(input.kind)) total_ = points_of(input).size();
+    if (has_design(input.kind)) total_ = count_of(input);
     return kDone;
   }
 

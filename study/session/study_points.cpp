@@ -1,6 +1,7 @@
 #include "study/session/study_points.h"
 
 #include "study/calibrate/fit_setup.h"
+#include "study/config/case_selection.h"
 #include "study/config/input_error.h"
 #include "study/config/precedence.h"
 #include "study/converge/check_instants.h"
@@ -11,12 +12,6 @@ namespace linkstudy {
 namespace {
 
 constexpr const char* kStepPath = "simulation.step";
-
-std::vector<Axis> axes_of(const StudyInput& input) {
-  std::vector<Axis> axes;
-  for (const VaryInput& vary : input.vary) axes.push_back({vary.parameter, vary.values});
-  return axes;
-}
 
 std::vector<Value> first_point(const StudyInput& input) {
   if (input.kind == FileKind::calibrate) return calibration_point(input, first_fitted(input));
@@ -41,6 +36,10 @@ std::vector<Parameter> parameters_of(const StudyInput& input) {
                              .value_or(Parameter{kStepPath, "s", "length of a step"}));
   }
   return parameters;
+}
+
+std::uint64_t count_of(const StudyInput& input) {
+  return count_points(input.design, axes_of(input));
 }
 
 std::vector<Point> points_of(const StudyInput& input) {

@@ -12,6 +12,8 @@ namespace linkstudy {
 
 std::vector<Parameter> parameters_of(const StudyInput& input);
 std::vector<Point> points_of(const StudyInput& input);
+// Their number, without them.
+std::uint64_t count_of(const StudyInput& input);
 std::unique_ptr<Evaluator> make_evaluator(const StudyInput& input, Diagnostics& diagnostics);
 
 }  // namespace linkstudy

@@ -16,6 +16,8 @@
 #include "study/metrics/response_list.h"
 #include "study/record/digest.h"
 #include "study/record/version.h"
+#include "study/sensitivity/judge_sensitivity.h"
+#include "study/sensitivity/write_sensitivity.h"
 #include "study/session/analysis_check.h"
 #include "study/session/calibration_run.h"
 #include "study/session/model_results.h"
@@ -166,6 +168,10 @@ class Verifier {
     if (kind == FileKind::tune) found = tune_again();
     if (kind == FileKind::calibrate) found = calibrate_again();
     if (kind == FileKind::converge) found = converge_again();
+    if (kind == FileKind::study) {
+      found = nlohmann::json::parse(sensitivity::write_json(sensitivity::judge_sensitivity(
+          evaluator_->input(), evaluator_->responses(), evaluations_)));
+    }
     if (!found || result_.refuted || !result_.to_the_bit || *found == stored) return;
     result_.refuted = fmt::format("judged anew the answer is another: {}",
                                   nlohmann::json::diff(stored, *found).front().dump());

@@ -20,7 +20,7 @@ inline constexpr auto kWords<RunStatus> = make_words<RunStatus>({{RunStatus::run
                                                                   "interrupted"}});
 
 // Groups of results.h5 for what a verb concludes from its evaluations.
-enum class AnswerKind { tuning, calibration, convergence, statics, kinematics };
+enum class AnswerKind { tuning, calibration, convergence, statics, kinematics, sensitivity };
 
 template <>
 inline constexpr auto kWords<AnswerKind> =
@@ -28,7 +28,8 @@ inline constexpr auto kWords<AnswerKind> =
                             {AnswerKind::calibration, "calibration"},
                             {AnswerKind::convergence, "convergence"},
                             {AnswerKind::statics, "statics"},
-                            {AnswerKind::kinematics, "kinematics"}});
+                            {AnswerKind::kinematics, "kinematics"},
+                            {AnswerKind::sensitivity, "sensitivity"}});
 
 // What was asked for; constant over all runs into one directory.
 struct StudyDescription {

@@ -14,8 +14,8 @@ from pathlib import Path
 # Layers, top to bottom: a file includes only its own folder and folders above it.
 CORE = """base codegen numerics spatial laws topology flexible model kinematics closures forces
           dynamics simulation""".split()
-STUDY = """record config design metrics evaluate schedule tune converge calibrate store
-           report kinematics session plan page cli""".split()
+STUDY = """record design config metrics evaluate schedule tune converge calibrate
+           sensitivity store report kinematics session plan page cli""".split()
 LAYERS = [f"core/{name}" for name in CORE] + [f"study/{name}" for name in STUDY]
 
 # Headers of a library, and the only places of core/ and study/ that include them.

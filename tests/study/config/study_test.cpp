@@ -209,7 +209,7 @@ set = { "gravity.0" = "0.5 g0" }
 TEST(Study, Varied_values_are_expanded_in_the_unit_of_their_key) {
   const StudyInput input = good(kStudy);
   EXPECT_EQ(input.kind, FileKind::study);
-  EXPECT_EQ(input.design, Design::grid);
+  EXPECT_EQ(input.design.type, Design::grid);
   ASSERT_EQ(input.vary.size(), 5u);
   EXPECT_THAT(numbers(input.vary[0]), ElementsAre(1e4, 1e5, 1e6, 1e7, 1e8));
   EXPECT_THAT(numbers(input.vary[1]),
@@ -372,8 +372,8 @@ TEST(Study, Wrong_study_keys_are_errors_with_a_place) {
       {kStudy, "max_failures = \"5 %\"", "max_failures = @\"many\"", "must be a count or a share"},
       {kStudy, "on_failure = \"abort\"", "on_failure = @\"refine\"",
        "not supported in this version", "record, abort"},
-      {kStudy, "[run]", "[design]\ntype = @\"sobol\"\n[run]", "not supported in this version",
-       "grid, list"},
+      {kStudy, "[run]", "[design]\ntype = @\"soboll\"\n[run]",
+       "must be one of grid, list, centered", "did you mean 'sobol'?"},
       {kStudy, "[run]", "[@search]\nscan = 3\n[run]", "search is not a known key"},
       {kStudy, "reference_signal = \"-joint.A.force\"", "reference_signal = @\"-\"",
        "must name a channel"},
