@@ -24,17 +24,15 @@ std::string title_of(const Evaluator& evaluator, std::size_t i) {
   return name.empty() ? "reference run" : fmt::format("reference run of load case '{}'", name);
 }
 
-bool take_stored(Evaluator& evaluator, std::size_t i, const StudyRecord& record,
-                 spdlog::logger& log) {
-  const StoredReference* stored = record.reference(evaluator.load_case_name(i));
-  if (stored == nullptr) return false;
+bool take_bytes(Evaluator& evaluator, std::size_t i, const std::string& bytes,
+                spdlog::logger& log) {
   try {
-    evaluator.set_reference(i, decode_reference(stored->bytes));
+    evaluator.set_reference(i, decode_reference(bytes));
+    return true;
   } catch (const std::out_of_range& error) {
-    log.warn("{} in the journal is not used: {}", title_of(evaluator, i), error.what());
+    log.warn("{} as it is kept is not used: {}", title_of(evaluator, i), error.what());
     return false;
   }
-  return true;
 }
 
 // In a thread of its own, so that a stop signal is seen while it runs.
@@ -70,17 +68,26 @@ void keep(const Evaluator& evaluator, std::size_t i, std::string bytes, StudyRec
 
 }  // namespace
 
-void run_references(Evaluator& evaluator, StudyRecord& record, const RunDeadline& deadline,
-                    spdlog::logger& log) {
+void run_references(Evaluator& evaluator, StudyRecord& record, KnownRows& known,
+                    const RunDeadline& deadline, spdlog::logger& log) {
   for (std::size_t i = 0; i < evaluator.load_case_count(); ++i) {
     if (!evaluator.has_reference(i)) continue;
-    if (take_stored(evaluator, i, record, log)) continue;
+    const StoredReference* stored = record.reference(evaluator.load_case_name(i));
+    if (stored != nullptr && take_bytes(evaluator, i, stored->bytes, log)) continue;
+    std::optional<std::string> bytes = known.find_reference(i);
+    if (bytes && take_bytes(evaluator, i, *bytes, log)) {
+      log.info("{} is taken from an earlier one", title_of(evaluator, i));
+      keep(evaluator, i, std::move(*bytes), record, log);
+      continue;
+    }
     const auto begin = Clock::now();
     run_one(evaluator, i, deadline, log);
     for (const std::string& text : evaluator.run_reference(i).warnings) {
       say_warning(fmt::format("{}: {}", title_of(evaluator, i), text), log);
     }
-    keep(evaluator, i, encode_reference(evaluator.run_reference(i)), record, log);
+    std::string made = encode_reference(evaluator.run_reference(i));
+    known.keep_reference(i, made);
+    keep(evaluator, i, std::move(made), record, log);
     log.info("{} took {:.3g} s", title_of(evaluator, i),
              std::chrono::duration<double>(Clock::now() - begin).count());
   }
