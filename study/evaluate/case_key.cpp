@@ -29,13 +29,17 @@ void erase_all(Tree& table, std::initializer_list<const char*> keys) {
   for (const char* key : keys) table.erase(key);
 }
 
-// What a list of tables says beyond the models.
-void erase_models(Tree& study, const char* list) {
+// Models and data stand in the key themselves.
+void erase_sources(Tree& table) {
+  erase_all(table, {"set", "model", "file", "results"});
+}
+
+void erase_sources_in(Tree& study, const char* list) {
   Tree* entries = study.find(list);
   if (entries == nullptr) return;
   for (Tree& entry : entries->items) {
-    entry.erase("set");
-    if (Tree* reference = entry.find("reference")) erase_all(*reference, {"set", "model"});
+    erase_sources(entry);
+    if (Tree* reference = entry.find("reference")) erase_sources(*reference);
   }
 }
 
@@ -49,12 +53,6 @@ std::string data_of(const StudyInput& input, const LoadCaseInput& load_case) {
   return text;
 }
 
-Tree names_of(const std::vector<Response>& responses) {
-  Tree names = Tree::make_array();
-  for (const Response& one : responses) names.items.push_back(Tree::make_text(one.name));
-  return names;
-}
-
 Tree signals_of(const std::vector<TraceInput>& traces) {
   Tree signals = Tree::make_array();
   for (const TraceInput& one : traces) signals.items.push_back(Tree::make_text(one.signal));
@@ -66,19 +64,25 @@ Tree find_kept(const Evaluator& evaluator) {
   const StudyInput& input = evaluator.input();
   Tree kept = input.resolved;
   for (const char* key : kOfOthers) kept.erase(key);
-  erase_models(kept, "load_case");
-  erase_models(kept, "experiment");
-  if (Tree* reference = kept.find("reference")) erase_all(*reference, {"set", "model"});
+  erase_sources_in(kept, "load_case");
+  erase_sources_in(kept, "experiment");
+  if (Tree* reference = kept.find("reference")) erase_sources(*reference);
   if (Tree* matches = kept.find("match")) {
     for (Tree& match : matches->items) erase_all(match, {"tolerance", "norm"});
   }
   kept.set("histories", signals_of(input.trace));
-  kept.set("columns", names_of(evaluator.responses()));
   return kept;
 }
 
+// Constant steps are as many as the grid has.
 RunCaps caps_of(const SimulationOptions& options) {
-  return {static_cast<double>(options.step_limit), options.drift_limit};
+  const bool counts_steps = options.integrator != Integrator::rk4;
+  return {counts_steps ? static_cast<double>(options.step_limit) : 0.0, options.drift_limit};
+}
+
+// Where the reference of a load case stands among all.
+std::string reference_name(const std::string& load_case) {
+  return load_case.empty() ? "reference" : load_case;
 }
 
 // What the name and the kinematics of a model say changes no run.
@@ -133,12 +137,12 @@ CaseKeys::CaseKeys(const Evaluator& evaluator)
   ByteWriter out;
   out(std::string_view("linkstudy case 1"));
   put_content(out, kept_);
+  for (const Response& column : evaluator.responses()) out(column.name);
   for (std::size_t i = 0; i < load_cases.size(); ++i) {
     const std::optional<ModelInput> model = evaluator.reference_model_at(i);
     reference_caps_.push_back(model ? std::optional(caps_of(model->options)) : std::nullopt);
     if (model) {
-      const std::string name = load_cases[i].name;
-      references_.set(name.empty() ? "run" : name, counted_part(model->resolved));
+      references_.set(reference_name(load_cases[i].name), counted_part(model->resolved));
     }
     out(data_of(input, load_cases[i]));
   }
@@ -172,7 +176,7 @@ CaseKey CaseKeys::of_reference(std::size_t load_case) const {
   out(std::string_view("linkstudy reference 1"));
   put_content(out, kept_);
   out(name);
-  put_content(out, *references_.find(name.empty() ? "run" : name));
+  put_content(out, *references_.find(reference_name(name)));
   return {sha256(out.bytes()), {*reference_caps_.at(load_case)}};
 }
 

@@ -21,21 +21,18 @@ inline constexpr auto kWords<CacheMiss> =
                            {CacheMiss::other_rounding, "of another instruction set"},
                            {CacheMiss::damaged, "damaged"}});
 
+void visit_members(auto& archive, Like<KnownReference> auto& reference) {
+  archive(reference.bytes, reference.warnings);
+}
+
 CachedRows::CachedRows(ResultCache cache, spdlog::logger& log)
     : cache_(std::move(cache)), log_(log) {}
 
 std::optional<Evaluation> CachedRows::find(const CaseKey& key) {
-  const std::string name = key.with_caps();
-  const std::optional<std::string> bytes = find_bytes(name);
-  if (!bytes) return std::nullopt;
-  try {
-    Evaluation evaluation = from_bytes<WholeEvaluation>(*bytes).evaluation;
-    ++rows_;
-    return evaluation;
-  } catch (const std::out_of_range&) {
-    note_damaged(name);
-    return std::nullopt;
-  }
+  auto whole = find_record<WholeEvaluation>(key.with_caps());
+  if (!whole) return std::nullopt;
+  ++rows_;
+  return std::move(whole->evaluation);
 }
 
 void CachedRows::keep(const CaseKey& key, const Evaluation& evaluation) {
@@ -43,19 +40,25 @@ void CachedRows::keep(const CaseKey& key, const Evaluation& evaluation) {
   keep_bytes(key.with_caps(), to_bytes(WholeEvaluation{evaluation}));
 }
 
-std::optional<std::string> CachedRows::find_reference(const CaseKey& key) {
-  std::optional<std::string> bytes = find_bytes(key.with_caps());
-  if (bytes) ++references_;
-  return bytes;
+std::optional<KnownReference> CachedRows::find_reference(const CaseKey& key) {
+  auto reference = find_record<KnownReference>(key.with_caps());
+  if (reference) ++references_;
+  return reference;
 }
 
-void CachedRows::keep_reference(const CaseKey& key, const std::string& bytes) {
-  keep_bytes(key.with_caps(), bytes);
+void CachedRows::keep_reference(const CaseKey& key, const KnownReference& reference) {
+  keep_bytes(key.with_caps(), to_bytes(reference));
 }
 
-std::optional<std::string> CachedRows::find_bytes(const std::string& key) {
-  CacheAnswer answer = cache_.find(key);
-  if (answer.bytes) return std::move(answer.bytes);
+template <class Record>
+std::optional<Record> CachedRows::find_record(const std::string& key) {
+  const CacheAnswer answer = cache_.find(key);
+  try {
+    if (answer.bytes) return from_bytes<Record>(*answer.bytes);
+  } catch (const std::out_of_range&) {
+    note_damaged(key);
+    return std::nullopt;
+  }
   if (answer.miss == CacheMiss::damaged) {
     note_damaged(key);
   } else {

@@ -7,11 +7,19 @@
 
 #include <map>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "study/evaluate/case_key.h"
 #include "study/store/result_cache.h"
 
 namespace linkstudy {
+
+// A reference run as it is sent and kept (evaluate/reference_bytes.h), and what it warns of.
+struct KnownReference {
+  std::string bytes;
+  std::vector<std::string> warnings;
+};
 
 class CachedRows {
  public:
@@ -21,14 +29,15 @@ class CachedRows {
   // Under the id it had.
   std::optional<Evaluation> find(const CaseKey& key);
   void keep(const CaseKey& key, const Evaluation& evaluation);
-  std::optional<std::string> find_reference(const CaseKey& key);
-  void keep_reference(const CaseKey& key, const std::string& bytes);
+  std::optional<KnownReference> find_reference(const CaseKey& key);
+  void keep_reference(const CaseKey& key, const KnownReference& reference);
 
   // "cache DIR: 11 rows and 1 reference run taken; 1 was not there (1 new)"
   std::string summary() const;
 
  private:
-  std::optional<std::string> find_bytes(const std::string& key);
+  template <class Record>
+  std::optional<Record> find_record(const std::string& key);
   void keep_bytes(const std::string& key, const std::string& bytes);
   void note_damaged(const std::string& key);
 

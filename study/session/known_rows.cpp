@@ -43,17 +43,17 @@ void KnownRows::keep(const Evaluation& evaluation) {
   missing_.erase(key);
 }
 
-std::optional<std::string> KnownRows::find_reference(std::size_t load_case) {
+std::optional<KnownReference> KnownRows::find_reference(std::size_t load_case) {
   if (!has_any()) return std::nullopt;
   const CaseKey key = keys().of_reference(load_case);
   if (earlier_.has_any()) {
-    if (const std::string* bytes = earlier_.find_reference(key)) return *bytes;
+    if (const std::string* bytes = earlier_.find_reference(key)) return KnownReference{*bytes, {}};
   }
   return cache_ ? cache_->find_reference(key) : std::nullopt;
 }
 
-void KnownRows::keep_reference(std::size_t load_case, const std::string& bytes) {
-  if (cache_) cache_->keep_reference(keys().of_reference(load_case), bytes);
+void KnownRows::keep_reference(std::size_t load_case, const KnownReference& reference) {
+  if (cache_) cache_->keep_reference(keys().of_reference(load_case), reference);
 }
 
 std::string KnownRows::summary() {

@@ -19,10 +19,10 @@ class KnownRows {
   std::optional<Evaluation> find(const Point& point);
   // Attempts at it before those of this start.
   std::uint32_t attempts(const Point& point);
-  std::optional<std::string> find_reference(std::size_t load_case);
+  std::optional<KnownReference> find_reference(std::size_t load_case);
   // What was run, for others to find.
   void keep(const Evaluation& evaluation);
-  void keep_reference(std::size_t load_case, const std::string& bytes);
+  void keep_reference(std::size_t load_case, const KnownReference& reference);
 
   // How many rows came from where, and why others did not, in lines; empty where there was nothing
   // to ask.

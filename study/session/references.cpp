@@ -35,6 +35,10 @@ bool take_bytes(Evaluator& evaluator, std::size_t i, const std::string& bytes,
   }
 }
 
+void warn(const std::string& title, const std::vector<std::string>& warnings, spdlog::logger& log) {
+  for (const std::string& text : warnings) say_warning(fmt::format("{}: {}", title, text), log);
+}
+
 // In a thread of its own, so that a stop signal is seen while it runs.
 void run_one(Evaluator& evaluator, std::size_t i, const RunDeadline& deadline,
              spdlog::logger& log) {
@@ -74,20 +78,20 @@ void run_references(Evaluator& evaluator, StudyRecord& record, KnownRows& known,
     if (!evaluator.has_reference(i)) continue;
     const StoredReference* stored = record.reference(evaluator.load_case_name(i));
     if (stored != nullptr && take_bytes(evaluator, i, stored->bytes, log)) continue;
-    std::optional<std::string> bytes = known.find_reference(i);
-    if (bytes && take_bytes(evaluator, i, *bytes, log)) {
+    std::optional<KnownReference> one = known.find_reference(i);
+    if (one && take_bytes(evaluator, i, one->bytes, log)) {
       log.info("{} is taken from an earlier one", title_of(evaluator, i));
-      keep(evaluator, i, std::move(*bytes), record, log);
+      warn(title_of(evaluator, i), one->warnings, log);
+      keep(evaluator, i, std::move(one->bytes), record, log);
       continue;
     }
     const auto begin = Clock::now();
     run_one(evaluator, i, deadline, log);
-    for (const std::string& text : evaluator.run_reference(i).warnings) {
-      say_warning(fmt::format("{}: {}", title_of(evaluator, i), text), log);
-    }
-    std::string made = encode_reference(evaluator.run_reference(i));
+    const ReferenceRecord& run = evaluator.run_reference(i);
+    warn(title_of(evaluator, i), run.warnings, log);
+    KnownReference made{encode_reference(run), run.warnings};
     known.keep_reference(i, made);
-    keep(evaluator, i, std::move(made), record, log);
+    keep(evaluator, i, std::move(made.bytes), record, log);
     log.info("{} took {:.3g} s", title_of(evaluator, i),
              std::chrono::duration<double>(Clock::now() - begin).count());
   }

@@ -140,19 +140,26 @@ class Beside {
     if (const auto one = find_difference(before_.keys.kept(), keys_.kept())) {
       return shown_difference("other things are kept of a run", *one);
     }
+    if (same_parameters_) {
+      if (const std::string why = why_another_model(row); !why.empty()) return why;
+    }
     if (const auto one = find_difference(before_.keys.references(), keys_.references())) {
       return shown_difference("it is compared with another run", *one);
     }
     if (!same_parameters_) return without_place(row);
+    const auto own = keys_.of(row.point.values);
+    const bool is_same = own && own->digest == before_.keys.of(row.point.values)->digest;
+    return is_same ? without_place(row) : "it is compared with other data";
+  }
+
+  std::string why_another_model(const Evaluation& row) const {
     try {
       for (std::size_t i = 0; i < now_.load_case_count(); ++i) {
         const auto one = find_difference(before_.evaluator->model_at(i, row.point.values).resolved,
                                          now_.model_at(i, row.point.values).resolved);
         if (one) return shown_difference("the model is another", *one);
       }
-      const auto own = keys_.of(row.point.values);
-      const bool is_same = own && own->digest == before_.keys.of(row.point.values)->digest;
-      return is_same ? without_place(row) : "it is compared with other data";
+      return {};
     } catch (const InvalidPoint& error) {
       return error.what();
     }

@@ -106,7 +106,8 @@ TEST_F(CaseKey, Counts_measured_data_by_their_text) {
                             "columns = { time = \"t\", \"joint.P.v\" = \"v\" }\n";
   write("x.csv", "t,v\n0,0\n1,-9\n2,-18\n");
   const std::string own = key(study);
-  EXPECT_EQ(key(study), own);
+  write("y.csv", "t,v\n0,0\n1,-9\n2,-18\n");
+  EXPECT_EQ(key(with(study, "x.csv", "y.csv")), own);
   write("x.csv", "t,v\n0,0\n1,-9\n2,-18.000000000000004\n");
   EXPECT_NE(key(study), own);
 }
