@@ -141,9 +141,8 @@ CaseKeys::CaseKeys(const Evaluator& evaluator)
   for (std::size_t i = 0; i < load_cases.size(); ++i) {
     const std::optional<ModelInput> model = evaluator.reference_model_at(i);
     reference_caps_.push_back(model ? std::optional(caps_of(model->options)) : std::nullopt);
-    if (model) {
-      references_.set(reference_name(load_cases[i].name), counted_part(model->resolved));
-    }
+    const std::string name = reference_name(load_cases[i].name);
+    if (model) references_.set(name, counted_part(model->resolved));
     out(data_of(input, load_cases[i]));
   }
   put_content(out, references_);

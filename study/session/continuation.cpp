@@ -119,35 +119,10 @@ class Continuation {
       return;
     }
     const std::size_t rows = contents_.evaluations.size() - retried_.size();
-    said_.push_back(
-        fmt::format("the search begins anew, and takes the {} of {} where it asks for "
-                    "them",
-                    rows == 1 ? "row" : fmt::format("{} rows", rows), aside));
-  }
-
-  // By id, each once.
-  void choose_retried() {
-    if (!options_.retry_failed) return;
-    const std::vector<std::uint64_t>& by_caps = comparison_.ended_by_caps;
-    for (const Evaluation& row : contents_.evaluations) {
-      if (row.status == Cause::ok) continue;
-      const bool is_retried =
-          is_transient(row.status) || std::ranges::find(by_caps, row.point.id) != by_caps.end();
-      if (is_retried) retried_.push_back(row.point.id);
-      ++(is_retried ? again_ : left_)[row.status];
-    }
-  }
-
-  void say_retried() {
-    if (!options_.retry_failed) return;
-    std::string text = "no failed evaluation is run again";
-    if (!retried_.empty()) {
-      text = fmt::format("{} {} again ({})",
-                         counted(static_cast<std::int64_t>(retried_.size()), "failed evaluation"),
-                         retried_.size() == 1 ? "is run" : "are run", shown_causes(again_));
-    }
-    if (!left_.empty()) {
-      text += fmt::format("; not repeated, since they would fail again: {}", shown_causes(left_));
+    std::string text = "the search begins anew";
+    if (rows > 0) {
+      text += fmt::format(", and takes the {} of {} where it asks for them",
+                          rows == 1 ? "row" : fmt::format("{} rows", rows), aside);
     }
     said_.push_back(std::move(text));
   }

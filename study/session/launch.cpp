@@ -263,8 +263,8 @@ class Launch {
     int code = kInternalError;
     try {
       if (has_references_) record_->add_references(evaluator_->reference_traces());
-      session_ = std::make_unique<StudySession>(options_, *evaluator_, *record_, *known_, pool,
-                                                *log_, total_);
+      session_ = std::make_unique<StudySession>(options_, *evaluator_, *record_, *known_, deadline_,
+                                                pool, *log_, total_);
       code = work(*session_);
     } catch (...) {
       const Failure failure = describe_failure(std::current_exception());

@@ -65,10 +65,12 @@ std::string counts_text(const StudyRecord& record, std::uint64_t total) {
 }
 
 StudySession::StudySession(const SessionOptions& options, Evaluator& evaluator, StudyRecord& record,
-                           KnownRows& known, Pool& pool, spdlog::logger& log, std::uint64_t total)
+                           KnownRows& known, const RunDeadline& deadline, Pool& pool,
+                           spdlog::logger& log, std::uint64_t total)
     : evaluator_(evaluator),
       record_(record),
       known_(known),
+      deadline_(deadline),
       pool_(pool),
       log_(log),
       total_(total),
@@ -107,8 +109,9 @@ std::vector<Point> StudySession::missing_of(const std::vector<Point>& points) co
 std::vector<Point> StudySession::take_known(const std::vector<Point>& points) {
   std::vector<Point> others;
   for (const Point& point : points) {
-    if (stop_level() > 0) throw Interrupted();
-    std::optional<Evaluation> known = known_.find(point);
+    // The pool ends what is to end.
+    const bool is_ending = stop_level() > 0 || deadline_.forbids_to_begin();
+    std::optional<Evaluation> known = is_ending ? std::nullopt : known_.find(point);
     if (!known) {
       others.push_back(point);
       continue;
@@ -117,7 +120,7 @@ std::vector<Point> StudySession::take_known(const std::vector<Point>& points) {
     progress_.update(record_.evaluations().size(), failures_, Clock::now());
     if (!stop_reason_.empty()) throw TooManyFailures(stop_reason_);
   }
-  record_.journal().sync();
+  if (others.size() < points.size()) record_.journal().sync();
   return others;
 }
 

@@ -7,6 +7,7 @@
 #include "study/evaluate/evaluator.h"
 #include "study/schedule/pool.h"
 #include "study/schedule/progress.h"
+#include "study/session/deadline.h"
 #include "study/session/known_rows.h"
 #include "study/session/options.h"
 #include "study/session/study_record.h"
@@ -23,7 +24,8 @@ class TooManyFailures : public std::runtime_error {
 class StudySession {
  public:
   StudySession(const SessionOptions& options, Evaluator& evaluator, StudyRecord& record,
-               KnownRows& known, Pool& pool, spdlog::logger& log, std::uint64_t total);
+               KnownRows& known, const RunDeadline& deadline, Pool& pool, spdlog::logger& log,
+               std::uint64_t total);
 
   Evaluator& evaluator() { return evaluator_; }
   StudyRecord& record() { return record_; }
@@ -59,6 +61,7 @@ class StudySession {
   Evaluator& evaluator_;
   StudyRecord& record_;
   KnownRows& known_;
+  const RunDeadline& deadline_;
   Pool& pool_;
   spdlog::logger& log_;
   std::uint64_t total_;  // 0 where not known beforehand

@@ -191,6 +191,27 @@ TEST_F(Extend, A_tune_with_a_wider_range_and_a_larger_budget_takes_what_is_there
                                   "now [10000, 1000000]"));
 }
 
+// Its reference and its levels are there; the answer is drawn anew.
+TEST_F(Extend, A_refinement_by_one_level_more) {
+  std::string text = replaced(tune_text(), "kind = \"tune\"", "kind = \"converge\"");
+  text = replaced(text, "[[tune]]", "[[refine]]");
+  text = replaced(text, "range = { log = [1e3, 1e7] }",
+                  "ladder = { from = 1e4, ratio = 4.0, levels = 4 }");
+  write("ladder.toml", text);
+  const Ended three = run("converge ladder.toml -o out -s refine.0.ladder.levels=3");
+  ASSERT_NE(three.code, 2) << three.err;
+  const auto before = rows_of("out");
+  const Ended four = run("converge ladder.toml -o out --extend");
+  EXPECT_THAT(four.err, HasSubstr("extended: 3 rows are kept, 1 to run"));
+  const Ended whole = run("converge ladder.toml -o whole --cache cache");
+  EXPECT_EQ(four.code, whole.code);
+  EXPECT_EQ(four.out, whole.out);
+  EXPECT_EQ(count_kept(before), 3u);
+  const Ended cached = run("converge ladder.toml -o cached --cache cache");
+  EXPECT_EQ(cached.out, whole.out);
+  EXPECT_THAT(cached.err, HasSubstr("4 rows and 1 reference run taken\n"));
+}
+
 TEST_F(Extend, A_tune_whose_runs_took_too_long_is_run_again) {
   const Ended whole = run("tune tune.toml -o whole");
   ASSERT_EQ(whole.code, 0);
