@@ -103,6 +103,7 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments) {
   require(!first.starts_with('-'), fmt::format("a verb comes first, got '{}'", first));
   const VerbRow& verb = find_verb(first);
   parse_options(verb, {arguments.begin() + 1, arguments.end()}, line);
+  line.goes_on = std::ranges::find(verb.options, "retry-failed") != verb.options.end();
   if (line.help) return line;
   check_inputs(verb, line);
   check_values(line);

@@ -170,6 +170,19 @@ Rows run_rows() {
        fill(&Line::walltime_s)},
       {"fresh", "", "overwrite files that exist", fill_switch(&Line::fresh), {"init"}},
       {"fresh", "", "overwrite what DIR holds", fill_switch(&Line::fresh)},
+      {"retry-failed", "",
+       "run again what failed for a passing cause (timeout, exception, rank_lost, cancelled), or "
+       "by a limit that is wider now",
+       fill_switch(&Line::retry_failed)},
+      {"extend", "",
+       "keep the rows of a smaller design, or of a search with a smaller budget or narrower "
+       "ranges, "
+       "that DIR holds",
+       fill_switch(&Line::extend)},
+      {"cache", "DIR",
+       "take finished evaluations from this directory, and keep those that are run; any number of "
+       "studies may share it",
+       fill(&Line::cache)},
       {"progress",
        "HOW",
        "auto, bar, line or none",
@@ -275,6 +288,8 @@ void check_values(const CommandLine& line) {
           "--ranks must be from 1 to 1000000");
   require(line.probe_s >= 0.0 && std::isfinite(line.probe_s),
           "--probe must be a number of seconds, or 0");
+  require(!(line.fresh && (line.retry_failed || line.extend)),
+          "--fresh overwrites the rows that --retry-failed and --extend keep; leave it out");
   require(!line.batch || *line.batch > 0, "--batch must be positive");
   check_word("progress", line, line.progress);
   check_word("log-level", line, line.log_level);

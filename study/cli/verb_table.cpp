@@ -12,9 +12,9 @@ namespace {
 constexpr std::size_t kMany = 1000000;
 
 std::vector<std::string> run_options(const std::vector<std::string>& own = {}) {
-  std::vector<std::string> names = {"output,o",     "set,s",     "seed",     "on-failure",
-                                    "max-failures", "timeout",   "walltime", "fresh",
-                                    "progress",     "log-level", "json"};
+  std::vector<std::string> names = {
+      "output,o", "set,s",        "seed",   "on-failure", "max-failures", "timeout",   "walltime",
+      "fresh",    "retry-failed", "extend", "cache",      "progress",     "log-level", "json"};
   names.insert(names.begin() + 3, own.begin(), own.end());
   return names;
 }

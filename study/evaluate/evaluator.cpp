@@ -119,7 +119,7 @@ std::vector<Override> to_overrides(const std::vector<Parameter>& parameters,
                                    const std::vector<Value>& point) {
   std::vector<Override> set;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
-    if (parameters[i].path.starts_with(kOffsetPrefix)) continue;
+    if (is_measured_offset(parameters[i].path)) continue;
     set.push_back(make_override(parameters[i].path, point.at(i)));
   }
   return set;
@@ -186,6 +186,10 @@ void check_reference_data(const StudyInput& input, const LoadCaseInput& one,
 
 std::string measured_offset_path(const std::string& experiment) {
   return fmt::format("{}{}.time_offset", kOffsetPrefix, experiment);
+}
+
+bool is_measured_offset(const std::string& path) {
+  return path.starts_with(kOffsetPrefix);
 }
 
 std::unique_ptr<Evaluator> Evaluator::make(StudyInput input, std::vector<Parameter> parameters,

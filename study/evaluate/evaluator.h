@@ -26,6 +26,7 @@ namespace linkstudy {
 
 // The parameter that shifts the data of an experiment in time.
 std::string measured_offset_path(const std::string& experiment);
+bool is_measured_offset(const std::string& path);
 
 class Evaluator {
  public:

@@ -38,6 +38,7 @@ StudyEnd end_study(StudySession& session, const std::function<void()>& work) {
     message = fmt::format("linkstudy: error: {}\n", reason.what());
   }
   session.finish_progress();
+  session.say_known();
   print_err(message);
   if (end.code == kExitResumable) {
     fmt::print(stderr, "linkstudy: interrupted; the same command continues\n");

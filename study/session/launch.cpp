@@ -12,6 +12,7 @@
 #include "study/record/version.h"
 #include "study/report/console.h"
 #include "study/schedule/batch_job.h"
+#include "study/session/continuation.h"
 #include "study/session/deadline.h"
 #include "study/session/earlier_run.h"
 #include "study/session/exit_code.h"
@@ -132,7 +133,7 @@ class Launch {
   }
 
   int make_references() {
-    if (is_first()) run_references(*evaluator_, *record_, deadline_, *log_);
+    if (is_first()) run_references(*evaluator_, *record_, *known_, deadline_, *log_);
     return kDone;
   }
 
@@ -142,20 +143,34 @@ class Launch {
         options_, *evaluator_, most_evaluations(evaluator_->input(), total_), transport_);
     const std::string directory = directory_of(options_, evaluator_->input());
     refuse_own_results(evaluator_->input(), directory);
-    record_ = std::make_unique<StudyRecord>(directory, identity, options_.fresh);
+    std::optional<ResultCache> cache;
+    if (options_.cache) cache = open_cache(*options_.cache);
+    const std::string continued = prepare_continuation(options_, directory, identity, *evaluator_);
+    try {
+      record_ = std::make_unique<StudyRecord>(directory, identity, options_.fresh);
+    } catch (const OtherInput& found) {
+      throw_other_input(found, options_);
+    }
     log_ = open_log(options_, *record_);
+    known_ = std::make_unique<KnownRows>(
+        *evaluator_, EarlierRows(record_->directory(), identity.start),
+        cache ? std::make_unique<CachedRows>(std::move(*cache), *log_) : nullptr);
     log_->info("{} ({} ranks)", options_.command, transport_.size());
     if (!job_.id.empty()) log_->info("{}", text_of(job_));
     if (record_->keeps_own_job()) say_kept();
     print_banner(identity);
+    if (!continued.empty()) say(continued);
     return kDone;
   }
 
-  void say_kept() {
-    const std::string text =
-        fmt::format("--fresh was for the first start of job {}; what it has done is kept", job_.id);
+  void say(const std::string& text) {
     fmt::print(stderr, "linkstudy: {}\n", text);
-    log_->info("{}", text);
+    log_->info("{}", one_line(text));
+  }
+
+  void say_kept() {
+    say(fmt::format("--fresh was for the first start of job {}; what it has done is kept",
+                    job_.id));
   }
 
   void print_banner(const StudyIdentity& identity) {
@@ -248,8 +263,8 @@ class Launch {
     int code = kInternalError;
     try {
       if (has_references_) record_->add_references(evaluator_->reference_traces());
-      session_ =
-          std::make_unique<StudySession>(options_, *evaluator_, *record_, pool, *log_, total_);
+      session_ = std::make_unique<StudySession>(options_, *evaluator_, *record_, *known_, deadline_,
+                                                pool, *log_, total_);
       code = work(*session_);
     } catch (...) {
       const Failure failure = describe_failure(std::current_exception());
@@ -272,6 +287,7 @@ class Launch {
   std::unique_ptr<Evaluator> evaluator_;
   std::uint64_t total_ = 0;
   std::unique_ptr<StudyRecord> record_;  // rank 0
+  std::unique_ptr<KnownRows> known_;     // rank 0
   std::shared_ptr<spdlog::logger> log_;  // rank 0
   std::unique_ptr<StudySession> session_;
 };

@@ -12,9 +12,13 @@ struct SessionOptions {
   std::optional<std::string> output;  // results directory
   std::vector<std::string> set;       // path=value, in the input already
   std::optional<double> walltime_s;
-  bool fresh = false;              // overwrite what the directory holds
-  std::string progress = "auto";   // a word of ProgressMode
-  std::string log_level = "info";  // of linkstudy.log
+  bool fresh = false;                // overwrite what the directory holds
+  bool retry_failed = false;         // run failed rows again (continuation.h)
+  bool extend = false;               // keep the rows of a study that this one contains
+  std::optional<std::string> cache;  // directory of results that studies share
+  bool goes_on = false;              // the verb has options that go on with other studies
+  std::string progress = "auto";     // a word of ProgressMode
+  std::string log_level = "info";    // of linkstudy.log
 };
 
 }  // namespace linkstudy

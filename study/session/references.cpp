@@ -24,17 +24,19 @@ std::string title_of(const Evaluator& evaluator, std::size_t i) {
   return name.empty() ? "reference run" : fmt::format("reference run of load case '{}'", name);
 }
 
-bool take_stored(Evaluator& evaluator, std::size_t i, const StudyRecord& record,
-                 spdlog::logger& log) {
-  const StoredReference* stored = record.reference(evaluator.load_case_name(i));
-  if (stored == nullptr) return false;
+bool take_bytes(Evaluator& evaluator, std::size_t i, const std::string& bytes,
+                spdlog::logger& log) {
   try {
-    evaluator.set_reference(i, decode_reference(stored->bytes));
+    evaluator.set_reference(i, decode_reference(bytes));
+    return true;
   } catch (const std::out_of_range& error) {
-    log.warn("{} in the journal is not used: {}", title_of(evaluator, i), error.what());
+    log.warn("{} as it is kept is not used: {}", title_of(evaluator, i), error.what());
     return false;
   }
-  return true;
+}
+
+void warn(const std::string& title, const std::vector<std::string>& warnings, spdlog::logger& log) {
+  for (const std::string& text : warnings) say_warning(fmt::format("{}: {}", title, text), log);
 }
 
 // In a thread of its own, so that a stop signal is seen while it runs.
@@ -70,17 +72,26 @@ void keep(const Evaluator& evaluator, std::size_t i, std::string bytes, StudyRec
 
 }  // namespace
 
-void run_references(Evaluator& evaluator, StudyRecord& record, const RunDeadline& deadline,
-                    spdlog::logger& log) {
+void run_references(Evaluator& evaluator, StudyRecord& record, KnownRows& known,
+                    const RunDeadline& deadline, spdlog::logger& log) {
   for (std::size_t i = 0; i < evaluator.load_case_count(); ++i) {
     if (!evaluator.has_reference(i)) continue;
-    if (take_stored(evaluator, i, record, log)) continue;
+    const StoredReference* stored = record.reference(evaluator.load_case_name(i));
+    if (stored != nullptr && take_bytes(evaluator, i, stored->bytes, log)) continue;
+    std::optional<KnownReference> one = known.find_reference(i);
+    if (one && take_bytes(evaluator, i, one->bytes, log)) {
+      log.info("{} is taken from an earlier one", title_of(evaluator, i));
+      warn(title_of(evaluator, i), one->warnings, log);
+      keep(evaluator, i, std::move(one->bytes), record, log);
+      continue;
+    }
     const auto begin = Clock::now();
     run_one(evaluator, i, deadline, log);
-    for (const std::string& text : evaluator.run_reference(i).warnings) {
-      say_warning(fmt::format("{}: {}", title_of(evaluator, i), text), log);
-    }
-    keep(evaluator, i, encode_reference(evaluator.run_reference(i)), record, log);
+    const ReferenceRecord& run = evaluator.run_reference(i);
+    warn(title_of(evaluator, i), run.warnings, log);
+    KnownReference made{encode_reference(run), run.warnings};
+    known.keep_reference(i, made);
+    keep(evaluator, i, std::move(made.bytes), record, log);
     log.info("{} took {:.3g} s", title_of(evaluator, i),
              std::chrono::duration<double>(Clock::now() - begin).count());
   }

@@ -65,9 +65,12 @@ std::string counts_text(const StudyRecord& record, std::uint64_t total) {
 }
 
 StudySession::StudySession(const SessionOptions& options, Evaluator& evaluator, StudyRecord& record,
-                           Pool& pool, spdlog::logger& log, std::uint64_t total)
+                           KnownRows& known, const RunDeadline& deadline, Pool& pool,
+                           spdlog::logger& log, std::uint64_t total)
     : evaluator_(evaluator),
       record_(record),
+      known_(known),
+      deadline_(deadline),
       pool_(pool),
       log_(log),
       total_(total),
@@ -80,7 +83,7 @@ StudySession::StudySession(const SessionOptions& options, Evaluator& evaluator, 
 
 void StudySession::evaluate(const std::vector<Point>& points) {
   check_failures();
-  const std::vector<Point> missing = missing_of(points);
+  const std::vector<Point> missing = take_known(missing_of(points));
   const auto& parameters = evaluator_.parameters();
   run_packs(form_packs(missing, parameters, simd_level().lanes, pool_.ranks()));
   // What failed outside the evaluations (no memory, a message over its limit) may do alone.
@@ -101,6 +104,24 @@ std::vector<Point> StudySession::missing_of(const std::vector<Point>& points) co
     }
   }
   return missing;
+}
+
+std::vector<Point> StudySession::take_known(const std::vector<Point>& points) {
+  std::vector<Point> others;
+  for (const Point& point : points) {
+    // The pool ends what is to end.
+    const bool is_ending = stop_level() > 0 || deadline_.forbids_to_begin();
+    std::optional<Evaluation> known = is_ending ? std::nullopt : known_.find(point);
+    if (!known) {
+      others.push_back(point);
+      continue;
+    }
+    take(std::move(*known));
+    progress_.update(record_.evaluations().size(), failures_, Clock::now());
+    if (!stop_reason_.empty()) throw TooManyFailures(stop_reason_);
+  }
+  if (others.size() < points.size()) record_.journal().sync();
+  return others;
 }
 
 void StudySession::run_packs(const std::vector<std::vector<Point>>& packs) {
@@ -149,6 +170,8 @@ void StudySession::take_pack(const std::vector<Point>& pack, const TaskResult& t
     evaluation.message = one_line(std::move(evaluation.message));
     evaluation.wall_s = task.seconds / static_cast<double>(pack.size());
     evaluation.rank = task.rank;
+    evaluation.attempts += known_.attempts(evaluation.point);
+    known_.keep(evaluation);
     take(std::move(evaluation));
   }
   progress_.update(record_.evaluations().size(), failures_, Clock::now());
@@ -212,6 +235,14 @@ void StudySession::tick() {
 
 bool StudySession::is_exhausted() const {
   return total_ > 0 && record_.evaluations().size() >= total_;
+}
+
+void StudySession::say_known() {
+  const std::string text = known_.summary();
+  if (text.empty()) return;
+  print_err(text + "\n");
+  log_.info("{}", one_line(text));
+  record_.note({"known_rows", text});
 }
 
 void StudySession::finish_progress() {

@@ -7,6 +7,8 @@
 #include "study/evaluate/evaluator.h"
 #include "study/schedule/pool.h"
 #include "study/schedule/progress.h"
+#include "study/session/deadline.h"
+#include "study/session/known_rows.h"
 #include "study/session/options.h"
 #include "study/session/study_record.h"
 #include "study/session/warnings.h"
@@ -21,20 +23,24 @@ class TooManyFailures : public std::runtime_error {
 
 class StudySession {
  public:
-  StudySession(const SessionOptions& options, Evaluator& evaluator, StudyRecord& record, Pool& pool,
-               spdlog::logger& log, std::uint64_t total);
+  StudySession(const SessionOptions& options, Evaluator& evaluator, StudyRecord& record,
+               KnownRows& known, const RunDeadline& deadline, Pool& pool, spdlog::logger& log,
+               std::uint64_t total);
 
   Evaluator& evaluator() { return evaluator_; }
   StudyRecord& record() { return record_; }
   spdlog::logger& log() { return log_; }
 
-  // Evaluates the points that are not in the record yet, in packs that fill the lanes of the ranks,
-  // and records each by itself. Throws Interrupted and TooManyFailures with everything journalled.
+  // Evaluates the points that are neither in the record yet nor known otherwise, in packs that fill
+  // the lanes of the ranks, and records each by itself. Throws Interrupted and TooManyFailures with
+  // everything journalled.
   void evaluate(const std::vector<Point>& points);
 
   // From the pool's clock.
   void tick();
   void finish_progress();
+  // Tells where rows came from that were not run.
+  void say_known();
   // Whether nothing of a design is left to do; of a tune, which has none, never.
   bool is_exhausted() const;
   // Tasks may still be running and are not waited for: cancelled in vain, or with lost ranks.
@@ -42,6 +48,8 @@ class StudySession {
 
  private:
   std::vector<Point> missing_of(const std::vector<Point>& points) const;
+  // Records those that are known, and returns the others.
+  std::vector<Point> take_known(const std::vector<Point>& points);
   void run_packs(const std::vector<std::vector<Point>>& packs);
   void take_pack(const std::vector<Point>& pack, const TaskResult& task);
   void end_run(const RunOutcome& outcome);
@@ -52,6 +60,8 @@ class StudySession {
 
   Evaluator& evaluator_;
   StudyRecord& record_;
+  KnownRows& known_;
+  const RunDeadline& deadline_;
   Pool& pool_;
   spdlog::logger& log_;
   std::uint64_t total_;  // 0 where not known beforehand

@@ -36,20 +36,11 @@ bool was_begun_by_job(const std::filesystem::path& directory, const ProvenanceRo
   });
 }
 
-// Evaluations of one study come from sets that round alike: with fused multiply-adds or without.
+// A study in which nothing is left to do may be started on any.
 void require_same_rounding(const JournalContents& contents, const ProvenanceRow& now,
                            const std::filesystem::path& directory) {
-  if (contents.evaluations.empty() || contents.provenance.empty()) return;
-  const std::string& before = contents.provenance.back().simd;
-  const std::string baseline(name_of(InstructionSet::baseline));
-  if (before.empty() || (before == baseline) == (now.simd == baseline)) return;
   if (summarize_status(contents, 0.0, 0.0).is_complete) return;
-  const bool is_choice = before == baseline;
-  throw StoreError(fmt::format(
-      "{}: {} evaluations were made with instruction set {}, this start has {}, which rounds "
-      "differently; {}, or overwrite them with --fresh",
-      directory.string(), contents.evaluations.size(), before, now.simd,
-      is_choice ? "continue with LINKSTUDY_SIMD=baseline" : "continue on a machine that has it"));
+  refuse_other_rounding(contents, now, directory);
 }
 
 std::string with_case(const std::string& base, const std::string& load_case) {
@@ -67,6 +58,25 @@ std::string trace_name(std::uint64_t evaluation, const std::string& load_case) {
 
 }  // namespace
 
+std::string load_case_of(const std::string& name, std::int64_t evaluation) {
+  const std::string own = trace_name(static_cast<std::uint64_t>(evaluation), "");
+  return name.size() > own.size() ? name.substr(own.size() + 1) : "";
+}
+
+void refuse_other_rounding(const JournalContents& contents, const ProvenanceRow& now,
+                           const std::filesystem::path& directory) {
+  if (contents.evaluations.empty() || contents.provenance.empty()) return;
+  const std::string& before = contents.provenance.back().simd;
+  const std::string baseline(name_of(InstructionSet::baseline));
+  if (before.empty() || (before == baseline) == (now.simd == baseline)) return;
+  const bool is_choice = before == baseline;
+  throw StoreError(fmt::format(
+      "{}: {} evaluations were made with instruction set {}, this start has {}, which rounds "
+      "differently; {}, or overwrite them with --fresh",
+      directory.string(), contents.evaluations.size(), before, now.simd,
+      is_choice ? "continue with LINKSTUDY_SIMD=baseline" : "continue on a machine that has it"));
+}
+
 const std::vector<Trace>* find_traces(const StudyResults& results, std::uint64_t evaluation,
                                       const std::string& load_case) {
   const auto found =
@@ -77,11 +87,9 @@ const std::vector<Trace>* find_traces(const StudyResults& results, std::uint64_t
 std::vector<std::string> load_cases_with_traces(const StudyResults& results,
                                                 std::uint64_t evaluation) {
   std::vector<std::string> names;
-  const std::string own = trace_name(evaluation, "");
   for (const TraceSet& set : results.traces) {
     if (set.evaluation != static_cast<std::int64_t>(evaluation)) continue;
-    const bool has_case = set.name.size() > own.size();
-    names.push_back(has_case ? set.name.substr(own.size() + 1) : "");
+    names.push_back(load_case_of(set.name, set.evaluation));
   }
   return names;
 }
@@ -125,6 +133,9 @@ StudyRecord::StudyRecord(std::filesystem::path directory, const StudyIdentity& i
   for (const Evaluation& evaluation : results_.evaluations) {
     evaluations_[evaluation.point.id] = evaluation;
   }
+  for (const Evaluation& one : journal_.contents().struck_out) {
+    attempts_before_[one.point.id] = one.attempts;
+  }
   write_file_atomically(directory_ / kResolvedName, text_named(identity.texts, "resolved"));
 }
 
@@ -162,6 +173,9 @@ void StudyRecord::add_traces(TraceSet set) {
 // What is stored apart first: an evaluation that is in the journal has it there.
 const Evaluation& StudyRecord::add(Evaluation evaluation) {
   const std::uint64_t id = evaluation.point.id;
+  if (const auto before = attempts_before_.find(id); before != attempts_before_.end()) {
+    evaluation.attempts += before->second;
+  }
   for (const CaseTraces& set : std::exchange(evaluation.traces, {})) {
     add_traces({trace_name(id, set.load_case), static_cast<std::int64_t>(id), set.traces});
   }
@@ -209,13 +223,17 @@ void StudyRecord::note_kernels() {
   const std::string written = written_text();
   NamedText now{"kernels", kernels_text()};
   if (!written.empty()) now.text += ", " + written + " on rank 0";
-  const auto found = std::ranges::find(results_.texts, now.name, &NamedText::name);
-  if (found != results_.texts.end() && found->text == now.text) return;
-  journal_.append(now);
+  note(std::move(now));
+}
+
+void StudyRecord::note(NamedText text) {
+  const auto found = std::ranges::find(results_.texts, text.name, &NamedText::name);
+  if (found != results_.texts.end() && found->text == text.text) return;
+  journal_.append(text);
   if (found == results_.texts.end()) {
-    results_.texts.push_back(std::move(now));
+    results_.texts.push_back(std::move(text));
   } else {
-    *found = std::move(now);
+    *found = std::move(text);
   }
 }
 

@@ -24,6 +24,14 @@ const std::vector<Trace>* find_traces(const StudyResults& results, std::uint64_t
 std::vector<std::string> load_cases_with_traces(const StudyResults& results,
                                                 std::uint64_t evaluation);
 
+// The load case of a set of traces or of contacts of an evaluation, by its name.
+std::string load_case_of(const std::string& name, std::int64_t evaluation);
+
+// Evaluations of one study come from sets that round alike: with fused multiply-adds or without.
+// Throws StoreError where this start does not.
+void refuse_other_rounding(const JournalContents& contents, const ProvenanceRow& now,
+                           const std::filesystem::path& directory);
+
 struct StudyIdentity {
   StudyDescription description;
   std::string input_sha256;
@@ -61,6 +69,9 @@ class StudyRecord {
   // What the verb concludes: the object of its --json, and tables.
   void set_answer(AnswerKind kind, const std::string& json, std::vector<Table> tables);
 
+  // A text of this start for the provenance; the last of a name counts.
+  void note(NamedText text);
+
   // Writes results.h5 and returns the results digest.
   std::string write(RunStatus status);
   // The same now and then, while the study runs: at most a fiftieth of the time.
@@ -82,6 +93,7 @@ class StudyRecord {
   bool is_resumed_ = false;
   StudyResults results_;  // evaluations are in evaluations_
   std::map<std::uint64_t, Evaluation> evaluations_;
+  std::map<std::uint64_t, std::uint32_t> attempts_before_;  // of rows that are run again, by id
   std::vector<StoredReference> references_;  // of this start; earlier ones are in the journal
   std::chrono::steady_clock::time_point next_write_;
 };

@@ -15,6 +15,7 @@
 #include "study/evaluate/form_packs.h"
 #include "study/metrics/response_list.h"
 #include "study/record/digest.h"
+#include "study/record/transient.h"
 #include "study/record/version.h"
 #include "study/sensitivity/judge_sensitivity.h"
 #include "study/sensitivity/write_sensitivity.h"
@@ -255,7 +256,7 @@ class Selection {
  public:
   explicit Selection(const std::vector<Evaluation>& evaluations) : evaluations_(evaluations) {
     for (const Evaluation& one : evaluations) {
-      if (!tuning::is_transient(one.status)) comparable_.insert(one.point.id);
+      if (!is_transient(one.status)) comparable_.insert(one.point.id);
     }
   }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 namespace linkstudy {
 
@@ -16,6 +17,13 @@ inline constexpr const char* kLogName = "linkstudy.log";
 // Results without a journal (or with one that has lost its header) are refused too, unless `fresh`:
 // they would be overwritten and not continued.
 void prepare_directory(const std::filesystem::path& directory, bool fresh = false);
+
+// Journals of studies that the one here goes on from: journal_1.bin, journal_2.bin, ..., in this
+// order.
+std::vector<std::filesystem::path> earlier_journals(const std::filesystem::path& directory);
+// Makes the journal the last of them, and removes what was computed from it.
+void set_journal_aside(const std::filesystem::path& directory);
+void remove_earlier_journals(const std::filesystem::path& directory);
 
 // Removes what was computed from the journal, and left-over temporary files; not the log.
 void remove_derived_files(const std::filesystem::path& directory);

@@ -4,18 +4,23 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
+#include <set>
 #include <utility>
 
+#include "study/record/bytes.h"
 #include "study/record/digest.h"
 #include "study/store/directory.h"
-#include "study/store/store_error.h"
+#include "study/store/results_file.h"
 
 namespace linkstudy {
 namespace {
 
 constexpr std::uint64_t kSyncRecords = 64;
 constexpr std::chrono::milliseconds kSyncInterval{100};
+constexpr const char* kRetried = "retried";
+constexpr const char* kInput = "input_sha256";
 
 template <class Item>
 void replace_or_add(std::vector<Item>& items, Item item) {
@@ -44,7 +49,16 @@ struct Collect {
       contents.traces[at->second] = std::move(set);
     }
   }
-  void operator()(NamedText&& text) const { replace_or_add(contents.texts, std::move(text)); }
+  void operator()(NamedText&& text) {
+    if (text.name == kRetried) {
+      strike_out(from_bytes<std::vector<std::uint64_t>>(text.text));
+    } else if (text.name == kInput) {
+      contents.input_sha256 = text.text;
+      forget_answers();
+    } else {
+      replace_or_add(contents.texts, std::move(text));
+    }
+  }
   void operator()(StoredReference&& reference) const {
     replace_or_add(contents.references, std::move(reference));
   }
@@ -54,6 +68,27 @@ struct Collect {
   }
   void operator()(StudyDescription&& description) const {
     contents.description = std::move(description);
+  }
+
+ private:
+  // With their histories.
+  void strike_out(const std::vector<std::uint64_t>& ids) {
+    const std::set<std::uint64_t> all(ids.begin(), ids.end());
+    const auto is_one = [&](const Evaluation& row) { return all.contains(row.point.id); };
+    std::ranges::copy_if(contents.evaluations, std::back_inserter(contents.struck_out), is_one);
+    std::erase_if(contents.evaluations, is_one);
+    std::erase_if(contents.traces, [&](const TraceSet& set) {
+      return set.evaluation >= 0 && all.contains(static_cast<std::uint64_t>(set.evaluation));
+    });
+    trace_sets.clear();
+    for (std::size_t i = 0; i < contents.traces.size(); ++i) {
+      trace_sets.emplace(contents.traces[i].name, i);
+    }
+    forget_answers();
+  }
+
+  void forget_answers() {
+    std::erase_if(contents.texts, [](const NamedText& text) { return answer_kind_of(text); });
   }
 };
 
@@ -116,6 +151,7 @@ JournalContents parse_journal(std::string_view bytes, const std::filesystem::pat
     at += kRecordPrefixSize + payload.size();
   }
   contents.evaluations = latest_by_id(std::move(contents.evaluations));
+  contents.struck_out = latest_by_id(std::move(contents.struck_out));
   contents.valid_bytes = at;
   contents.dropped_bytes = bytes.size() - at;
   return contents;
@@ -137,6 +173,14 @@ JournalContents read_journal(const std::filesystem::path& directory) {
   return parse_journal(read_file(path), path);
 }
 
+NamedText retried_text(const std::vector<std::uint64_t>& ids) {
+  return {kRetried, to_bytes(ids)};
+}
+
+NamedText input_text(const std::string& input_sha256) {
+  return {kInput, input_sha256};
+}
+
 std::string dropped_text(const JournalContents& contents, const std::filesystem::path& directory) {
   if (contents.dropped_bytes == 0) return {};
   return fmt::format(
@@ -152,6 +196,7 @@ Journal::Journal(const std::filesystem::path& directory, const std::string& inpu
   const JournalHeader found = decode_header(file_.read_all());
   // Even --fresh overwrites nothing that is not ours.
   const bool overwrite = mode == OpenMode::fresh && found.state != HeaderState::foreign;
+  if (overwrite) remove_earlier_journals(directory);
   if (overwrite || found.state == HeaderState::torn) {
     start(header);
     contents_.input_sha256 = input_sha256;
@@ -182,12 +227,12 @@ void Journal::resume(const std::string& input_sha256) {
   require_continuable(contents_, file_.path());
   if (contents_.input_sha256 != input_sha256) {
     const std::string kind = contents_.description ? contents_.description->kind : "";
-    throw StoreError(
+    throw OtherInput(
         fmt::format("{}: holds a study of another input (of linkstudy {}, digest {}..., yours is "
-                    "{}...); choose another "
-                    "directory with -o or overwrite it with --fresh",
+                    "{}...)",
                     file_.path().parent_path().string(), kind.empty() ? "study" : kind,
-                    contents_.input_sha256.substr(0, 12), input_sha256.substr(0, 12)));
+                    contents_.input_sha256.substr(0, 12), input_sha256.substr(0, 12)),
+        "choose another directory with -o or overwrite it with --fresh");
   }
   end_ = contents_.valid_bytes;
   file_.truncate(end_);

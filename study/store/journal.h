@@ -13,6 +13,7 @@
 #include "study/store/file.h"
 #include "study/store/journal_record.h"
 #include "study/store/results.h"
+#include "study/store/store_error.h"
 
 namespace linkstudy {
 
@@ -28,6 +29,7 @@ struct JournalContents {
   std::vector<ProvenanceRow> provenance;
   std::optional<StudyDescription> description;
   std::uint64_t evaluations_since_start = 0;  // records after the last provenance row
+  std::vector<Evaluation> struck_out;         // by retried_text; the last record of an id counts
   std::uint64_t valid_bytes = 0;
   std::uint64_t dropped_bytes = 0;  // torn or damaged tail
 };
@@ -38,6 +40,23 @@ JournalContents parse_journal(std::string_view bytes, const std::filesystem::pat
 
 // Reads DIR/journal.bin of a dead or a running study; takes no lock.
 JournalContents read_journal(const std::filesystem::path& directory);
+
+// A journal never forgets, but a later record may change what counts. Rows of these ids that stand
+// before the record do not, nor do answers drawn from them: they are run again.
+NamedText retried_text(const std::vector<std::uint64_t>& ids);
+// The study goes on with the input of this digest, which has all its rows and asks for more.
+NamedText input_text(const std::string& input_sha256);
+
+// The journal holds another study: what it is, and how to go on.
+class OtherInput : public StoreError {
+ public:
+  OtherInput(const std::string& fact, const std::string& remedy)
+      : StoreError(fact + "; " + remedy), fact_(fact) {}
+  const std::string& fact() const { return fact_; }
+
+ private:
+  std::string fact_;
+};
 
 // What was lost, in a sentence; empty where nothing was. The evaluations that are missing are run
 // again when the study is continued.
@@ -51,7 +70,7 @@ enum class OpenMode {
 class Journal {
  public:
   // Opens DIR/journal.bin for appending, or creates it, and locks it. DIR exists. Refused: another
-  // writer, a journal of another input or version, a file that is no journal.
+  // writer, a journal of another input (OtherInput) or version, a file that is no journal.
   Journal(const std::filesystem::path& directory, const std::string& input_sha256, OpenMode mode);
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;

@@ -42,11 +42,6 @@ std::size_t find_binding(const Answer& answer, const std::vector<MatchComponent>
   return binding;
 }
 
-bool is_transient(Cause cause) {
-  return cause == Cause::timeout || cause == Cause::cancelled || cause == Cause::exception ||
-         cause == Cause::rank_lost;
-}
-
 bool is_instability(Cause cause) {
   return cause == Cause::diverged || cause == Cause::energy_blowup || cause == Cause::step_budget ||
          cause == Cause::step_too_coarse;

@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "study/record/transient.h"
 #include "study/tune/tuning_problem.h"
 
 namespace linkstudy::tuning {
@@ -21,8 +22,6 @@ struct Observation {
 double compute_ratio(const Answer& answer, const std::vector<MatchComponent>& components);
 // Index of the component with the largest error / tolerance; 0 when the answer has none.
 std::size_t find_binding(const Answer& answer, const std::vector<MatchComponent>& components);
-// timeout, cancelled, exception, rank_lost: a second try may end otherwise.
-bool is_transient(Cause cause);
 // diverged, energy_blowup, step_budget, step_too_coarse: the ends a too large step causes.
 bool is_instability(Cause cause);
 

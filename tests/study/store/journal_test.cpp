@@ -390,5 +390,43 @@ TEST_F(JournalFile, Sixty_kills_lose_no_acknowledged_row) {
   EXPECT_GE(told_in_all, kKills / 2) << "the kills came before anything was written";
 }
 
+// Rows that are run again count from then on only, with what they had tried before.
+TEST_F(JournalFile, Rows_struck_out_are_not_there_until_they_are_written_again) {
+  write(4);
+  {
+    Journal journal(dir_, kInput, OpenMode::resume);
+    journal.append(TraceSet{"evaluation_2", 2, {{"time", "s", {0.0}}}});
+    journal.append(NamedText{"convergence/ladder", "{}"});
+    journal.append(retried_text({0, 2}));
+  }
+  JournalContents contents = read_journal(dir_);
+  ASSERT_EQ(contents.evaluations.size(), 2u);
+  EXPECT_EQ(contents.evaluations[0].point.id, 1u);
+  EXPECT_EQ(contents.evaluations[1].point.id, 3u);
+  ASSERT_EQ(contents.struck_out.size(), 2u);
+  EXPECT_EQ(contents.struck_out[1].attempts, evaluation(2).attempts);
+  EXPECT_TRUE(contents.traces.empty());
+  EXPECT_TRUE(contents.texts.empty()) << "no answer rests on them";
+  {
+    Journal journal(dir_, kInput, OpenMode::resume);
+    journal.append(evaluation(2));
+  }
+  contents = read_journal(dir_);
+  ASSERT_EQ(contents.evaluations.size(), 3u);
+  expect_same(contents.evaluations[1], evaluation(2));
+}
+
+TEST_F(JournalFile, A_study_goes_on_with_the_input_that_has_all_its_rows) {
+  write(3);
+  {
+    Journal journal(dir_, kInput, OpenMode::resume);
+    journal.append(input_text(kOtherInput));
+  }
+  EXPECT_EQ(read_journal(dir_).input_sha256, kOtherInput);
+  EXPECT_THROW(Journal(dir_, kInput, OpenMode::resume), OtherInput);
+  const Journal journal(dir_, kOtherInput, OpenMode::resume);
+  expect_rows(journal.contents(), 3);
+}
+
 }  // namespace
 }  // namespace linkstudy::journal_test
