@@ -32,7 +32,12 @@ class PointFileReader {
     const std::optional<std::string> text = read_data_text(path, file.at, diagnostics_);
     if (!text) return;
     std::vector<WantedArray> wanted;
-    for (const WantedColumn& column : columns_of(*text, path)) add_wanted(column, wanted);
+    const std::vector<WantedColumn> columns = columns_of(*text, path);
+    if (columns.empty() && diagnostics_.empty()) {
+      diagnostics_.add(file.at, fmt::format("'{}' has no column of a parameter", path),
+                       "the heads are paths of the model, or columns says which they are");
+    }
+    for (const WantedColumn& column : columns) add_wanted(column, wanted);
     if (!diagnostics_.empty()) return;
     const auto arrays = parse_arrays(*text, path, file.at, wanted, diagnostics_);
     if (arrays) write_entries(wanted, *arrays);

@@ -154,6 +154,11 @@ TEST(DesignInput, What_is_wrong_in_a_file_is_said_with_its_line) {
               HasSubstr("points.csv:1:1: error: parameter names no"));
   EXPECT_THAT(errors("link.crank.mass\n1\n-2\n"),
               HasSubstr("points.csv:3:1: error: link.crank.mass must be positive"));
+  EXPECT_THAT(errors("evaluation\n1\n"), HasSubstr("points.csv' has no column of a parameter"));
+  EXPECT_THAT(errors(""), HasSubstr("has no column of a parameter"));
+  EXPECT_THAT(errors("link.crank.mass\n"), HasSubstr("there are no lines of numbers in it"));
+  EXPECT_THAT(errors("closure.S.sde.axes\nground\n\nsideways\n"),
+              HasSubstr("points.csv:4:1: error: closure.S.sde.axes must be one of"));
   EXPECT_THAT(errors("link.crank.mass\n1\n", mass("values = [1]")),
               HasSubstr("the points are those of design.file, and [[vary]] gives others"));
   EXPECT_THAT(errors_of(study("type = \"list\", file = \"none.csv\"", "")),
