@@ -127,6 +127,33 @@ class Continuation {
     said_.push_back(std::move(text));
   }
 
+  // By id, each once.
+  void choose_retried() {
+    if (!options_.retry_failed) return;
+    const std::vector<std::uint64_t>& by_caps = comparison_.ended_by_caps;
+    for (const Evaluation& row : contents_.evaluations) {
+      if (row.status == Cause::ok) continue;
+      const bool is_retried =
+          is_transient(row.status) || std::ranges::find(by_caps, row.point.id) != by_caps.end();
+      if (is_retried) retried_.push_back(row.point.id);
+      ++(is_retried ? again_ : left_)[row.status];
+    }
+  }
+
+  void say_retried() {
+    if (!options_.retry_failed) return;
+    std::string text = "no failed evaluation is run again";
+    if (!retried_.empty()) {
+      text = fmt::format("{} {} again ({})",
+                         counted(static_cast<std::int64_t>(retried_.size()), "failed evaluation"),
+                         retried_.size() == 1 ? "is run" : "are run", shown_causes(again_));
+    }
+    if (!left_.empty()) {
+      text += fmt::format("; not repeated, since they would fail again: {}", shown_causes(left_));
+    }
+    said_.push_back(std::move(text));
+  }
+
   const SessionOptions& options_;
   const std::filesystem::path& directory_;
   const StudyIdentity& identity_;
