@@ -1,9 +1,11 @@
 #!/usr/bin/env bash
 # An installed program, as a package and by cmake --install, works away from its clone: it runs a
-# shipped study from the installed configs, and its manual is there.
-# usage: install_test.sh BUILD_DIR
+# shipped study from the installed configs, its manual is there, and its Python module reads the
+# results.
+# usage: install_test.sh BUILD_DIR PYTHON
 set -euo pipefail
 build=$1
+python=$2
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
@@ -37,4 +39,8 @@ for prefix in "$work/by_hand" "$work/unpacked/usr"; do
   bash -n "$share/bash-completion/completions/linkstudy"
   [ -x "$share/linkstudy/jobs/mpirun_study.sh" ]
   [ ! -e "$share/linkstudy/jobs/quickstart.sh" ]
+  PYTHONPATH=$prefix/lib/python3/dist-packages "$python" -B -c '
+import sys, linkstudy
+assert linkstudy.__file__.startswith(sys.argv[1]), linkstudy.__file__
+assert linkstudy.ok(linkstudy.open(sys.argv[2])).sizes["evaluation"] > 0' "$prefix" "$work/results"
 done
