@@ -4,17 +4,14 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
+#include "study/record/boost_policy.h"
+
 namespace linkstudy::calibration {
 namespace {
 
 constexpr double kMostCorrelated = 0.9999;
 
-// Boost fills its tables when the program begins, with numbers that are 0 to valgrind, whose long
-// double has 64 bits: no reason to end there. Confidence is below 1, so that nothing overflows
-// here.
-namespace policies = boost::math::policies;
-using StudentsT = boost::math::students_t_distribution<
-    double, policies::policy<policies::overflow_error<policies::ignore_error>>>;
+using StudentsT = boost::math::students_t_distribution<double, IgnoreOverflow>;
 
 double correlate(const Vector& e, double parameters) {
   const auto n = static_cast<double>(e.size());

@@ -5,10 +5,12 @@
 #include <boost/math/distributions/triangular.hpp>
 #include <cmath>
 
+#include "study/record/boost_policy.h"
+
 namespace linkstudy {
 namespace {
 
-using Normal = boost::math::normal_distribution<double>;
+using Normal = boost::math::normal_distribution<double, IgnoreOverflow>;
 
 // Probabilities of both bounds: below them, or above them where the mean lies below both, so that
 // no digits are lost in a tail.

@@ -80,7 +80,8 @@ TEST_F(Contacts, Are_told_shortly_by_a_run_that_keeps_nothing) {
   const Ended ended = run("simulate model.toml");
   EXPECT_EQ(ended.code, 0) << ended.err;
   EXPECT_THAT(ended.out, HasSubstr("joint.J high: "));
-  EXPECT_THAT(ended.out, HasSubstr("met with 1.5 m/s at t = 0.666667 s, lasts at the end"));
+  EXPECT_THAT(on_one_line(ended.out),
+              HasSubstr("met with 1.5 m/s at t = 0.666667 s, lasts at the end"));
 }
 
 TEST_F(Contacts, Of_a_study_are_kept_with_its_histories_and_do_not_depend_on_lanes) {

@@ -69,7 +69,8 @@ class ModelResults(PageTest):
         lone = list(csv.reader(line for line in printed.read_text().splitlines()
                                if not line.startswith("#")))
         self.assertEqual([row[1:] for row in rows], lone)  # before them stands the run
-        said = dict(line.split(None, 1) for line in self.ran.stdout.splitlines())
+        text = self.ran.stdout.replace("\n" + 13 * " ", " ")  # what goes on in the next line
+        said = dict(line.split(None, 1) for line in text.splitlines())
         found = table(self.results)
         self.assertEqual([row["text"] for row in found if row["finding"] == "verdict"],
                          [said["verdict"]])

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <regex>
 #include <sstream>
 
 #include "tests/support/rsrrp_text.h"
@@ -156,6 +157,11 @@ scale = "vector"
 tolerance = 0.001
 window = [0.05, 0.2]
 )";
+}
+
+std::string on_one_line(const std::string& out) {
+  static const std::regex next("\n {13}");
+  return std::regex_replace(out, next, " ");
 }
 
 std::string digest_in(const std::string& out) {

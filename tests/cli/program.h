@@ -55,6 +55,9 @@ std::string tune_text();
 // [reference]: a file cut.csv with the force of S, heads as the channels.
 extern const char* const kForceData;
 
+// What is said of something on one line, however many it takes on the page.
+std::string on_one_line(const std::string& out);
+
 // The 64 digits after "results digest: ", or nothing.
 std::string digest_in(const std::string& out);
 
