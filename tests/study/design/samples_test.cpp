@@ -91,8 +91,8 @@ TEST(Samples, A_shuffle_reaches_every_place_once) {
 // Pearson's statistic over the 24 orders of four, 23 degrees of freedom: above 60 once in 30 000.
 TEST(Samples, A_shuffle_has_all_orders_alike) {
   std::map<std::vector<std::uint64_t>, double> counts;
-  constexpr double kEach = 500.0;
-  for (std::uint64_t seed = 0; seed < 24 * kEach; ++seed) {
+  constexpr int kEach = 500;
+  for (std::uint64_t seed = 0; seed < 24u * kEach; ++seed) {
     std::vector<std::uint64_t> order;
     for (std::uint64_t i = 0; i < 4; ++i) order.push_back(permuted(RandomStream(seed, {}), 4, i));
     ++counts[order];
