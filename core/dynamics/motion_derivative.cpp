@@ -155,13 +155,13 @@ MotionDerivative& derivative_of(const Model& model) {
   };
   const auto found = std::ranges::find_if(kept, same);
   if (found != kept.end()) {
+    found->derivative->set_parameters(model.parameters);
     std::rotate(found, found + 1, kept.end());
   } else {
     if (kept.size() == kKept) kept.erase(kept.begin());
     kept.push_back({structure, numbers,
                     std::make_unique<MotionDerivative>(model.mechanism, model.parameters)});
   }
-  kept.back().derivative->set_parameters(model.parameters);
   return *kept.back().derivative;
 }
 

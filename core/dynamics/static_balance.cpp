@@ -10,6 +10,7 @@
 #include "core/kinematics/assembly.h"
 #include "core/kinematics/closure_jacobian.h"
 #include "core/kinematics/scaled_closures.h"
+#include "core/numerics/dense.h"
 
 namespace linkstudy {
 
@@ -45,6 +46,12 @@ Balance compute_balance(const Model& model, const State<double>& s, Workspace<do
     b.phi[static_cast<Eigen::Index>(r)] = w.cut_rows[r].d;
   }
   return b;
+}
+
+VectorXd least_multipliers(const Balance& b, const std::vector<int>& free) {
+  if (b.j.rows() == 0) return {};
+  const MatrixXd jt = take_columns(b.j, free).transpose();
+  return solve_least_squares(jt, take_entries(b.tau, free));
 }
 
 VectorXd net_force(const Balance& b, const VectorXd& lambda) {

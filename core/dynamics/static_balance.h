@@ -20,6 +20,9 @@ struct Balance {
 
 Balance compute_balance(const Model& model, const State<double>& s, Workspace<double>& w);
 
+// The multipliers lambda (nc) that leave least of the forces on `free` over; of these the least.
+Eigen::VectorXd least_multipliers(const Balance& b, const std::vector<int>& free);
+
 // tau - J^T lambda (nv).
 Eigen::VectorXd net_force(const Balance& b, const Eigen::VectorXd& lambda);
 

@@ -43,13 +43,6 @@ class Descent {
   }
 
  private:
-  // Multipliers that leave least over.
-  VectorXd multipliers(const Balance& b) const {
-    if (b.j.rows() == 0) return {};
-    const MatrixXd jt = take_columns(b.j, free_).transpose();
-    return solve_least_squares(jt, take_entries(b.tau, free_));
-  }
-
   // Applied forces on the free directions; closures have none there.
   VectorXd force_along(const State<double>& s, const FreeDirections& f) {
     const VectorXd tau = take_entries(compute_balance(model_, s, w_).tau, free_);
@@ -62,7 +55,7 @@ class Descent {
   }
 
   State<double> advanced(const State<double>& s, const FreeDirections& f, const VectorXd& force) {
-    const VectorXd lambda = multipliers(compute_balance(model_, s, w_));
+    const VectorXd lambda = least_multipliers(compute_balance(model_, s, w_), free_);
     const MatrixXd gradient = compute_force_gradient(model_, s, lambda, free_, w_).value;
     MatrixXd k = -(f.basis.transpose() * f.measure.asDiagonal() * gradient *
                    f.measure.asDiagonal() * f.basis);

@@ -54,12 +54,7 @@ class LeastUnbalance {
 
   Unbalanced seek(const State<double>& start) {
     const Balance b = compute_balance(model_, start, w_);
-    VectorXd lambda;
-    if (b.j.rows() > 0) {
-      const MatrixXd jt = take_columns(b.j, free_).transpose();
-      lambda = solve_least_squares(jt, take_entries(b.tau, free_));
-    }
-    Unbalanced here = at(start, lambda);
+    Unbalanced here = at(start, least_multipliers(b, free_));
     double mu = 1e-6;  // of the largest diagonal entry
     for (int i = 0; i < kMostTries && mu < 1e8; ++i) {
       const Unbalanced next = stepped(here, mu);

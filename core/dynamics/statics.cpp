@@ -135,10 +135,7 @@ class EquilibriumSearch {
     const double tolerance =
         std::max(kForceTolerance * force_scale(model_, x_.t), rounding_floor(model_, x_));
     balance_ = compute_balance(model_, x_, w_);
-    if (balance_.j.rows() > 0) {
-      const MatrixXd jt = take_columns(balance_.j, free_).transpose();
-      lambda_ = solve_least_squares(jt, take_entries(balance_.tau, free_));
-    }
+    lambda_ = least_multipliers(balance_, free_);
     for (;; ++report_.iterations) {
       const VectorXd force = take_entries(net_force(balance_, lambda_), free_);
       report_.force_residual = force.size() > 0 ? force.lpNorm<Eigen::Infinity>() : 0.0;
