@@ -1,29 +1,46 @@
-// Verbs whose evaluations end in an answer: a tuning, a fit, orders of convergence.
+// What the long verbs have to say when their work is done: `study`, `tune`, `calibrate`, `converge`
+// print it, `queue` keeps the verdict.
 #pragma once
 
 #include <optional>
 
 #include "study/cli/input.h"
-#include "study/report/console.h"
 #include "study/session/end.h"
 #include "study/session/launch.h"
 
 namespace linkstudy {
 
-// `work` takes the session and returns the answer, `print` takes answer, results digest and session
-// and returns the exit code.
-template <class Work, class Print>
-int run_to_answer(const CommandLine& line, FileKind kind, const Work& work, const Print& print) {
-  const auto in_session = [&](StudySession& session) {
-    std::optional<decltype(work(session))> answer;
-    const StudyEnd end = end_study(session, [&] { answer = work(session); });
-    if (answer) return print(*answer, end.digest, session);
-    // Interrupted, or with too many failures: no answer yet.
-    if (line.json) print_out(to_json(end, session.record()));
-    return end.code;
-  };
-  return run_session(
-      line, [&] { return read_study_input(line, kind); }, in_session);
+struct VerbEnd {
+  int code = 0;         // exit code
+  std::string text;     // for standard output: of people, or the object of --json
+  std::string verdict;  // in a few words
+};
+
+// Rank 0; `json` asks for the object.
+using AnswerWork = VerbEnd (*)(StudySession& session, bool json);
+
+VerbEnd answer_study(StudySession& session, bool json);
+VerbEnd answer_tune(StudySession& session, bool json);
+VerbEnd answer_calibrate(StudySession& session, bool json);
+VerbEnd answer_converge(StudySession& session, bool json);
+
+// Throws std::logic_error for files that are no work.
+AnswerWork answer_work(FileKind kind);
+
+// Runs a file and prints; returns the exit code.
+int run_answer(const CommandLine& line, const ReadInput& read, AnswerWork work);
+// The same of a file that must be of that kind.
+int run_answer(const CommandLine& line, FileKind kind);
+
+// Evaluations that end in an answer: `work` takes the session and returns it, `say` takes it and
+// the results digest.
+template <class Work, class Say>
+VerbEnd find_answer(StudySession& session, bool json, const Work& work, const Say& say) {
+  std::optional<decltype(work(session))> answer;
+  const StudyEnd end = end_study(session, [&] { answer = work(session); });
+  if (answer) return say(*answer, end.digest);
+  // Interrupted, or with too many failures: no answer yet.
+  return {end.code, json ? to_json(end, session.record()) : "", end.status};
 }
 
 }  // namespace linkstudy

@@ -8,25 +8,33 @@
 #include "study/session/exit_code.h"
 
 namespace linkstudy {
+namespace {
+
+std::string text_of(const calibration::FitReport& report, const StudyResults& results,
+                    const std::string& digest) {
+  std::string text = calibration::write_verdict(report) + "\n";
+  for (const char* table : {"calibration", "data"}) {
+    if (report.fit.status == calibration::FitStatus::failed) continue;
+    text += text_of(make_results_table(results, table), output_width()) + "\n";
+  }
+  return text + fmt::format("results digest: {}\n", digest);
+}
+
+}  // namespace
+
+VerbEnd answer_calibrate(StudySession& session, bool json) {
+  const auto say = [&](const calibration::FitReport& report, const std::string& digest) {
+    const bool has_failed = report.fit.status == calibration::FitStatus::failed;
+    return VerbEnd{has_failed ? kNotTuned : kDone,
+                      json ? calibration::write_json(report, digest) + "\n"
+                           : text_of(report, session.record().results(), digest),
+                      std::string(name_of(report.fit.status))};
+  };
+  return find_answer(session, json, run_calibration, say);
+}
 
 int run_calibrate(const CommandLine& line) {
-  const auto print = [&](const calibration::FitReport& report, const std::string& digest,
-                         StudySession& session) {
-    const bool has_failed = report.fit.status == calibration::FitStatus::failed;
-    if (line.json) {
-      print_out(calibration::write_json(report, digest) + "\n");
-    } else {
-      print_out(calibration::write_verdict(report) + "\n");
-      for (const char* table : {"calibration", "data"}) {
-        if (has_failed) continue;
-        const Table made = make_results_table(session.record().results(), table);
-        print_out(text_of(made, output_width()) + "\n");
-      }
-      print_out(fmt::format("results digest: {}\n", digest));
-    }
-    return has_failed ? kNotTuned : kDone;
-  };
-  return run_to_answer(line, FileKind::calibrate, run_calibration, print);
+  return run_answer(line, FileKind::calibrate);
 }
 
 }  // namespace linkstudy

@@ -44,6 +44,8 @@ struct CommandLine : SessionOptions, CourseRequest {
   std::optional<int> ranks;
   std::optional<int> modes;
   std::optional<std::string> write_start;
+  std::optional<int> group;
+  double wait_s = 0.0;
   double probe_s = 2.0;
   std::optional<std::uint64_t> evaluation;
   std::optional<std::string> figure;

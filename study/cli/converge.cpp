@@ -10,18 +10,19 @@
 
 namespace linkstudy {
 
-int run_converge(const CommandLine& line) {
-  const auto print = [&](const convergence::Convergence& result, const std::string& digest,
-                         StudySession&) {
-    if (line.json) {
-      print_out(convergence::write_json(result, digest) + "\n");
-    } else {
-      print_out(convergence_text(result, output_width()));
-      print_out(fmt::format("results digest: {}\n", digest));
-    }
-    return result.is_settled() ? kDone : kNotConverged;
+VerbEnd answer_converge(StudySession& session, bool json) {
+  const auto say = [&](const convergence::Convergence& result, const std::string& digest) {
+    return VerbEnd{result.is_settled() ? kDone : kNotConverged,
+                      json ? convergence::write_json(result, digest) + "\n"
+                           : convergence_text(result, output_width()) +
+                                 fmt::format("results digest: {}\n", digest),
+                      result.is_settled() ? "orders found" : "no order found"};
   };
-  return run_to_answer(line, FileKind::converge, run_convergence, print);
+  return find_answer(session, json, run_convergence, say);
+}
+
+int run_converge(const CommandLine& line) {
+  return run_answer(line, FileKind::converge);
 }
 
 }  // namespace linkstudy

@@ -170,6 +170,9 @@ Rows run_rows() {
        fill(&Line::walltime_s)},
       {"fresh", "", "overwrite files that exist", fill_switch(&Line::fresh), {"init"}},
       {"fresh", "", "overwrite what DIR holds", fill_switch(&Line::fresh)},
+      {"group", "N", "ranks that share the work on one file; default: all", fill(&Line::group)},
+      {"wait", "S", "stay for further files until nothing was to do for S seconds (0)",
+       fill(&Line::wait_s)},
       {"retry-failed", "",
        "run again what failed for a passing cause (timeout, exception, rank_lost, cancelled), or "
        "by a limit that is wider now",
@@ -290,6 +293,8 @@ void check_values(const CommandLine& line) {
           "--probe must be a number of seconds, or 0");
   require(!(line.fresh && (line.retry_failed || line.extend)),
           "--fresh overwrites the rows that --retry-failed and --extend keep; leave it out");
+  require(!line.group || *line.group > 0, "--group must be positive");
+  require(line.wait_s >= 0.0 && std::isfinite(line.wait_s), "--wait must be a number of seconds");
   require(!line.batch || *line.batch > 0, "--batch must be positive");
   check_word("progress", line, line.progress);
   check_word("log-level", line, line.log_level);

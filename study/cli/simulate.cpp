@@ -3,9 +3,9 @@
 #include <chrono>
 
 #include "core/base/isa.h"
+#include "study/cli/answer.h"
 #include "study/cli/asked_file.h"
 #include "study/cli/input.h"
-#include "study/cli/run_points.h"
 #include "study/cli/verb_table.h"
 #include "study/config/started_model.h"
 #include "study/report/console.h"
@@ -31,7 +31,8 @@ int run_into_directory(const CommandLine& line) {
           "--csv with -o: the histories are in the directory; linkstudy export DIR "
           "--table traces --format csv prints them");
   require(!line.write_start, "--write-start goes without -o");
-  return run_points(line, [&] { return read_model_as_study(line); });
+  return run_answer(
+      line, [&] { return read_model_as_study(line); }, answer_study);
 }
 
 }  // namespace

@@ -7,9 +7,11 @@
 #include "study/cli/input.h"
 #include "study/cli/verb_table.h"
 #include "study/page/moving_run.h"
+#include "study/queue/queue_status.h"
 #include "study/record/findings.h"
 #include "study/report/console.h"
 #include "study/report/status_report.h"
+#include "study/report/write_table.h"
 #include "study/session/exit_code.h"
 #include "study/store/results_file.h"
 
@@ -39,10 +41,26 @@ int watch(const CommandLine& line) {
   }
 }
 
+std::string text_of(const CommandLine& line, const std::vector<queue::EntryStatus>& entries) {
+  return line.json ? queue::status_json(entries) : queue::status_text(entries, output_width());
+}
+
+int run_queue_status(const CommandLine& line) {
+  const char* begin = line.watch && isatty(STDOUT_FILENO) != 0 ? "\x1b[H\x1b[J" : "";
+  queue::Folder folder(line.inputs.front());
+  while (true) {
+    const std::vector<queue::EntryStatus> entries = queue::read_status(folder);
+    print_out(begin + text_of(line, entries));
+    if (!line.watch || !is_any(entries, queue::EntryState::running)) return kDone;
+    std::this_thread::sleep_for(kPause);
+  }
+}
+
 }  // namespace
 
 int run_status(const CommandLine& line) {
   require(!line.watch || !line.json, "--watch is for people: --json tells the state once");
+  if (queue::is_queue(line.inputs.front())) return run_queue_status(line);
   if (line.watch) return watch(line);
   const StudyStatus status = read_and_warn(line);
   print_out(line.json ? status_json(status) : status_text(status));

@@ -2,8 +2,7 @@
 
 #include <optional>
 
-#include "study/cli/input.h"
-#include "study/cli/run_points.h"
+#include "study/cli/answer.h"
 #include "study/cli/verb_table.h"
 #include "study/report/console.h"
 #include "study/report/sensitivity_report.h"
@@ -25,7 +24,7 @@ std::string result_text(const StudyRecord& record, const Answer& answer) {
                 : text_of(summary_table(record.results()), output_width());
 }
 
-int finish(bool json, StudySession& session, StudyEnd end, const Answer& answer) {
+VerbEnd finish(bool json, StudySession& session, StudyEnd end, const Answer& answer) {
   StudyRecord& record = session.record();
   // A study of which nothing came out is no success, however many failures are accepted.
   if (end.code == kDone && !record.evaluations().empty() &&
@@ -36,36 +35,32 @@ int finish(bool json, StudySession& session, StudyEnd end, const Answer& answer)
     print_err(fmt::format("linkstudy: error: every evaluation failed; evaluation {}: {}{}{}\n", id,
                           name_of(first.status), first.message.empty() ? "" : ": ", first.message));
   }
+  VerbEnd out{end.code, "", end.status};
   if (json) {
-    print_out(to_json(end, record, answer ? sensitivity::write_json(*answer) : ""));
-    return end.code;
+    out.text = to_json(end, record, answer ? sensitivity::write_json(*answer) : "");
+  } else if (end.code != kExitResumable) {
+    out.text = result_text(record, answer) + fmt::format("results digest: {}\n", end.digest);
   }
-  if (end.code != kExitResumable) {
-    print_out(result_text(record, answer));
-    print_out(fmt::format("results digest: {}\n", end.digest));
-  }
-  return end.code;
+  return out;
 }
 
 }  // namespace
 
-int run_points(const CommandLine& line, const ReadInput& read) {
-  return run_session(line, read, [&](StudySession& session) {
-    Answer answer;
-    const StudyInput& input = session.evaluator().input();
-    StudyEnd end = end_study(session, [&] {
-      if (is_sensitivity(input.design.type)) {
-        answer = run_sensitivity(session);
-      } else {
-        session.evaluate(points_of(input));
-      }
-    });
-    return finish(line.json, session, std::move(end), answer);
+VerbEnd answer_study(StudySession& session, bool json) {
+  Answer answer;
+  const StudyInput& input = session.evaluator().input();
+  StudyEnd end = end_study(session, [&] {
+    if (is_sensitivity(input.design.type)) {
+      answer = run_sensitivity(session);
+    } else {
+      session.evaluate(points_of(input));
+    }
   });
+  return finish(json, session, std::move(end), answer);
 }
 
 int run_study(const CommandLine& line) {
-  return run_points(line, [&] { return read_study_input(line, FileKind::study); });
+  return run_answer(line, FileKind::study);
 }
 
 }  // namespace linkstudy

@@ -8,18 +8,21 @@
 
 namespace linkstudy {
 
-int run_tune(const CommandLine& line) {
-  const auto print = [&](const std::vector<tuning::TuningResult>& results,
-                         const std::string& digest, StudySession&) {
-    if (line.json) {
-      print_out(tuning::write_json(results, digest) + "\n");
-    } else {
-      print_out(tuning::write_text(results));
-      print_out(fmt::format("results digest: {}\n", digest));
-    }
-    return worst_of(results) == tuning::TuningStatus::certified ? kDone : kNotTuned;
+VerbEnd answer_tune(StudySession& session, bool json) {
+  const auto say = [&](const std::vector<tuning::TuningResult>& results,
+                       const std::string& digest) {
+    const bool is_certified = worst_of(results) == tuning::TuningStatus::certified;
+    return VerbEnd{
+        is_certified ? kDone : kNotTuned,
+        json ? tuning::write_json(results, digest) + "\n"
+             : tuning::write_text(results) + fmt::format("results digest: {}\n", digest),
+        tuning::write_verdict(results)};
   };
-  return run_to_answer(line, FileKind::tune, run_tuning, print);
+  return find_answer(session, json, run_tuning, say);
+}
+
+int run_tune(const CommandLine& line) {
+  return run_answer(line, FileKind::tune);
 }
 
 }  // namespace linkstudy

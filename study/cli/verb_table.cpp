@@ -11,16 +11,21 @@ namespace {
 
 constexpr std::size_t kMany = 1000000;
 
-std::vector<std::string> run_options(const std::vector<std::string>& own = {}) {
-  std::vector<std::string> names = {
-      "output,o", "set,s",        "seed",   "on-failure", "max-failures", "timeout",   "walltime",
-      "fresh",    "retry-failed", "extend", "cache",      "progress",     "log-level", "json"};
-  names.insert(names.begin() + 3, own.begin(), own.end());
-  return names;
+using Names = std::vector<std::string>;
+
+Names joined(Names first, const Names& more) {
+  first.insert(first.end(), more.begin(), more.end());
+  return first;
 }
 
-std::vector<std::string> verb_names() {
-  std::vector<std::string> names;
+Names run_options(const Names& own = {}) {
+  return joined(joined({"output,o", "set,s", "seed"}, own),
+                {"on-failure", "max-failures", "timeout", "walltime", "fresh", "retry-failed",
+                 "extend", "cache", "progress", "log-level", "json"});
+}
+
+Names verb_names() {
+  Names names;
   for (const VerbRow& verb : verb_rows()) names.emplace_back(verb.name);
   return names;
 }
@@ -93,6 +98,15 @@ std::vector<VerbRow> study_verbs() {
        run_options(), run_calibrate, true},
       {"converge", "FILE", 1, 1, "refines, and tells orders of convergence and errors",
        run_options(), run_converge, true},
+      {"queue",
+       "FOLDER",
+       1,
+       1,
+       "runs the study, tune, calibrate and converge files of a folder, and further ones that come",
+       {"group", "wait", "on-failure", "max-failures", "timeout", "walltime", "retry-failed",
+        "extend", "cache", "progress", "log-level", "json"},
+       run_queue,
+       true},
       {"verify",
        "DIR|FILE.h5",
        1,
@@ -101,10 +115,10 @@ std::vector<VerbRow> study_verbs() {
        {"all", "count", "json"},
        run_verify},
       {"status",
-       "DIR",
+       "DIR|FOLDER",
        1,
        1,
-       "tells how far a study is, running or dead",
+       "tells how far a study or a queue is, running or dead",
        {"watch", "json"},
        run_status},
       {"export",

@@ -36,6 +36,7 @@ int run_study(const CommandLine& line);
 int run_tune(const CommandLine& line);
 int run_calibrate(const CommandLine& line);
 int run_converge(const CommandLine& line);
+int run_queue(const CommandLine& line);
 int run_verify(const CommandLine& line);
 int run_status(const CommandLine& line);
 int run_export(const CommandLine& line);

@@ -8,6 +8,8 @@
 // a frozen rank only MPI_Abort ends the job; mpirun then exits with its code, 0 included.
 #pragma once
 
+#include <mpi.h>
+
 #include <list>
 #include <memory>
 #include <optional>
@@ -34,17 +36,24 @@ class MpiSession final : public Transport {
   bool all_sent() override;
   void broadcast(std::string& bytes) override;
   int agree_exit_code(int code) override;
+  std::unique_ptr<Transport> split(int colour) override;
 
  private:
+  // Ranks of the session that `part` was split from.
+  MpiSession(MPI_Comm part, std::string host);
+
+  void find_place();
   void finalize() override;
   void kill_all(int code) override;
 
   struct Pending;  // a message and its request; the bytes must stay where they are
 
+  std::string host_;
+  const bool is_part_;  // of another, which ends MPI
+  MPI_Comm ranks_;
   int rank_ = 0;
   int size_ = 1;
   int nodes_ = 1;
-  std::string host_;
   int agreed_code_ = kExitResumable;
   std::list<std::unique_ptr<Pending>> pending_;
 };

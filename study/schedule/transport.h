@@ -39,6 +39,10 @@ class Transport {
   // that every rank exits alike. Also a gate: ranks leave together when one found an input error.
   virtual int agree_exit_code(int code) = 0;
 
+  // Collective: the ranks with the same colour among themselves, in their order. This transport
+  // must outlive it; leave_now and abort_all are still those of the process and of all ranks.
+  virtual std::unique_ptr<Transport> split(int colour) = 0;
+
   // Flushes, finalizes and exits without running destructors, for when a thread is still computing.
   [[noreturn]] void leave_now(int code);
   // Ends all ranks at once with this code: the last resort of a rank that cannot go on.
@@ -61,6 +65,7 @@ class LocalTransport final : public Transport {
   bool all_sent() override { return true; }
   void broadcast(std::string&) override {}
   int agree_exit_code(int code) override { return code; }
+  std::unique_ptr<Transport> split(int) override { return std::make_unique<LocalTransport>(); }
 
  private:
   void finalize() override {}

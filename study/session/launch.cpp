@@ -29,25 +29,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Runs a step on this rank and agrees on how it ended. What rank 0 has to say is said by it alone;
-// what went wrong on another rank only, by that one.
-int pass_gate(Transport& transport, const std::function<int()>& step) {
-  Failure failure;
-  try {
-    failure.code = step();
-  } catch (const Interrupted&) {
-    failure.code = kExitResumable;
-  } catch (...) {
-    failure = describe_failure(std::current_exception());
-  }
-  const int agreed = transport.agree_exit_code(failure.code);
-  if (agreed == kDone) return kDone;
-  std::string first = failure.text;
-  transport.broadcast(first);
-  if (transport.rank() == 0 || first.empty()) print_err(failure.text);
-  return agreed;
-}
-
 std::shared_ptr<spdlog::logger> open_log(const SessionOptions& options, const StudyRecord& record) {
   const std::string path = (record.directory() / kLogName).string();
   auto log = std::make_shared<spdlog::logger>(
@@ -82,12 +63,12 @@ std::string evaluate_task(Evaluator& evaluator, const std::string& task, const s
 class Launch {
  public:
   Launch(const SessionOptions& options, const ReadInput& read, Transport& transport,
-         Clock::time_point start)
+         const RunDeadline& deadline)
       : options_(options),
         read_(read),
         transport_(transport),
         job_(find_batch_job(read_environment)),
-        deadline_(find_deadline(options.walltime_s, job_, start)) {}
+        deadline_(deadline) {}
 
   int run(const SessionWork& work) {
     int code = pass_gate(transport_, [this] { return read_input(); });
@@ -174,11 +155,10 @@ class Launch {
   }
 
   void print_banner(const StudyIdentity& identity) {
-    const std::string revision = git_revision().empty() ? "" : " " + git_revision();
-    fmt::print(stderr, "linkstudy {}{}, {} on {}, SIMD {}, kernels {}, input {}\n",
-               program_version(), revision, counted(transport_.size(), "rank"),
-               counted(transport_.nodes(), "node"), simd_text(), kernels_text(),
-               identity.input_sha256.substr(0, 12));
+    if (!options_.is_part) {
+      print_err(fmt::format("{}, input {}\n", ranks_text(transport_),
+                            identity.input_sha256.substr(0, 12)));
+    }
     const std::string dropped = dropped_text(record_->journal().contents(), record_->directory());
     if (!dropped.empty()) {
       print_err(fmt::format("linkstudy: warning: {}\n", dropped));
@@ -294,18 +274,55 @@ class Launch {
 
 }  // namespace
 
-int run_session(const SessionOptions& options, const ReadInput& read, const SessionWork& work) {
-  const Clock::time_point start = Clock::now();
+int pass_gate(Transport& transport, const std::function<int()>& step) {
+  Failure failure;
+  try {
+    failure.code = step();
+  } catch (const Interrupted&) {
+    failure.code = kExitResumable;
+  } catch (...) {
+    failure = describe_failure(std::current_exception());
+  }
+  const int agreed = transport.agree_exit_code(failure.code);
+  if (agreed == kDone) return kDone;
+  std::string first = failure.text;
+  transport.broadcast(first);
+  if (transport.rank() == 0 || first.empty()) print_err(failure.text);
+  return agreed;
+}
+
+std::string ranks_text(const Transport& transport) {
+  const std::string revision = git_revision().empty() ? "" : " " + git_revision();
+  return fmt::format("linkstudy {}{}, {} on {}, SIMD {}, kernels {}", program_version(), revision,
+                     counted(transport.size(), "rank"), counted(transport.nodes(), "node"),
+                     simd_text(), kernels_text());
+}
+
+int run_on_ranks(const std::function<int(Transport& transport)>& run) {
   const std::unique_ptr<Transport> transport = make_transport();
   try {
     if (transport->rank() == 0) mark_ready();
-    return Launch(options, read, *transport, start).run(work);
+    return run(*transport);
   } catch (const std::exception& error) {
     // This rank cannot take part any more, and the others would wait for it.
     print_err(fmt::format("linkstudy: error: rank {}: {}\n", transport->rank(), error.what()));
     if (transport->size() > 1) transport->abort_all(kInternalError);
     return kInternalError;
   }
+}
+
+int run_session(Transport& transport, const RunDeadline& deadline, const SessionOptions& options,
+                const ReadInput& read, const SessionWork& work) {
+  return Launch(options, read, transport, deadline).run(work);
+}
+
+int run_session(const SessionOptions& options, const ReadInput& read, const SessionWork& work) {
+  const Clock::time_point start = Clock::now();
+  return run_on_ranks([&](Transport& transport) {
+    const RunDeadline deadline =
+        find_deadline(options.walltime_s, find_batch_job(read_environment), start);
+    return run_session(transport, deadline, options, read, work);
+  });
 }
 
 }  // namespace linkstudy

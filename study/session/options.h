@@ -16,6 +16,7 @@ struct SessionOptions {
   bool retry_failed = false;         // run failed rows again (continuation.h)
   bool extend = false;               // keep the rows of a study that this one contains
   std::optional<std::string> cache;  // directory of results that studies share
+  bool is_part = false;              // of a queue, which has said what runs where
   bool goes_on = false;              // the verb has options that go on with other studies
   std::string progress = "auto";     // a word of ProgressMode
   std::string log_level = "info";    // of linkstudy.log

@@ -413,4 +413,11 @@ std::string write_text(const std::vector<TuningResult>& results) {
   return text;
 }
 
+std::string write_verdict(const std::vector<TuningResult>& results) {
+  const std::string status(name_of(worst_of(results)));
+  if (results.size() > 1) return fmt::format("{}, {} answers", status, results.size());
+  if (results.front().point.empty()) return status;
+  return fmt::format("{}: {}", status, describe_best(results.front()));
+}
+
 }  // namespace linkstudy::tuning

@@ -18,4 +18,7 @@ std::string write_json(const TuningResult& result, const std::string& digest);
 // Of several targets {"status": the worst, "answers": [...], "evaluations", "rounds", "digest"}.
 std::string write_json(const std::vector<TuningResult>& results, const std::string& digest);
 
+// In a few words: "certified: 812945 N/m".
+std::string write_verdict(const std::vector<TuningResult>& results);
+
 }  // namespace linkstudy::tuning

@@ -15,7 +15,7 @@ from pathlib import Path
 CORE = """base codegen numerics spatial laws topology flexible model kinematics closures forces
           dynamics simulation""".split()
 STUDY = """record design config metrics evaluate schedule tune converge calibrate
-           sensitivity store report kinematics session plan page cli""".split()
+           sensitivity store report kinematics session plan queue page cli""".split()
 LAYERS = [f"core/{name}" for name in CORE] + [f"study/{name}" for name in STUDY]
 
 # Headers of a library, and the only places of core/ and study/ that include them.

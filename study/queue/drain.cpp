@@ -1,0 +1,220 @@
+#include "study/queue/drain.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+#include "study/config/study_input.h"
+#include "study/queue/enough_time.h"
+#include "study/record/bytes.h"
+#include "study/report/console.h"
+#include "study/schedule/progress.h"
+#include "study/schedule/stop_signals.h"
+#include "study/session/exit_code.h"
+#include "study/session/failure.h"
+#include "study/store/status.h"
+
+namespace linkstudy::queue {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kSettledS = 2.0;  // a file that cannot be read and is younger is being written
+constexpr std::chrono::milliseconds kPause{200};
+
+double seconds_until(Clock::time_point time) {
+  return std::chrono::duration<double>(time - Clock::now()).count();
+}
+
+// Rank 0's side: which entry is next, and how it ended.
+class Chooser {
+ public:
+  Chooser(Transport& ranks, const DrainOptions& options, const DrainWork& work)
+      : ranks_(ranks),
+        options_(options),
+        work_(work),
+        folder_(options.folder),
+        start_unix_s_(unix_time_s()),
+        allocation_s_(time_left()),
+        idle_since_(Clock::now()) {}
+
+  // Waits for one; nothing when the queue ends here.
+  std::optional<Entry> next() {
+    for (;;) {
+      if (is_ending()) return std::nullopt;
+      if (std::optional<Entry> entry = choose()) return entry;
+      if (!is_any_unsettled_ && -seconds_until(idle_since_) >= options_.wait_s) return std::nullopt;
+      std::this_thread::sleep_for(kPause);
+    }
+  }
+
+  void finish(const Entry& entry, const EntryAnswer& answer) {
+    record_.end = EntryEnd{answer.code, answer.verdict, unix_time_s()};
+    hold_->write(record_);
+    hold_.reset();
+    const double took_s = record_.end->unix_s - record_.begun_unix_s;
+    say(fmt::format("{} {} after {}{}{}", entry.name, describe(answer.code), duration_text(took_s),
+                    answer.verdict.empty() ? "" : ": ", answer.verdict));
+    idle_since_ = Clock::now();
+  }
+
+  // Entries that another program would begin, or another allocation of this one.
+  bool leaves_any() {
+    return std::ranges::any_of(folder_.entries(), [&](const Entry& entry) {
+      return !is_handled(entry) && !is_held(entry) && entry.kind;
+    });
+  }
+
+ private:
+  struct Handled {
+    std::string version;
+    std::optional<double> needed_s;  // of one that is left for another allocation
+    double unix_s = 0.0;             // when it was looked at
+  };
+
+  static std::string describe(int code) {
+    if (code == kDone) return "is done";
+    if (code == kExitResumable) return "is interrupted";
+    return fmt::format("ended with exit code {}", code);
+  }
+
+  void say(const std::string& text) const {
+    print_err(
+        fmt::format("linkstudy: {}{}{}\n", options_.name, options_.name.empty() ? "" : ": ", text));
+  }
+
+  bool is_ending() const { return stop_level() > 0 || options_.deadline.forbids_to_begin(); }
+
+  double time_left() const {
+    const auto& until = options_.deadline.begin_until;
+    return until ? seconds_until(*until) : 1e300;
+  }
+
+  bool is_handled(const Entry& entry) const {
+    const auto found = handled_.find(entry.name);
+    return found != handled_.end() && found->second.version == entry.version &&
+           !found->second.needed_s;
+  }
+
+  std::optional<Entry> choose() {
+    std::optional<Entry> longest;  // than any allocation
+    bool is_other_left = false;
+    is_any_unsettled_ = false;
+    for (const Entry& entry : folder_.entries()) {
+      if (is_handled(entry)) continue;
+      if (!entry.kind && entry.age_s < kSettledS) {
+        is_any_unsettled_ = true;
+        continue;
+      }
+      hold_ = EntryHold::take(entry);
+      if (!hold_) continue;
+      if (is_to_begin(entry)) return begin(entry);
+      hold_.reset();
+      const std::optional<double> needed_s = handled_[entry.name].needed_s;
+      if (!needed_s) continue;
+      is_other_left |= *needed_s <= allocation_s_;
+      if (*needed_s > allocation_s_ && !longest) longest = entry;
+    }
+    if (!longest || is_other_left) return std::nullopt;
+    hold_ = EntryHold::take(*longest);
+    return hold_ ? begin(*longest) : std::nullopt;
+  }
+
+  std::optional<Entry> begin(const Entry& entry) {
+    handled_[entry.name] = {entry.version, {}, unix_time_s()};
+    record_.host = ranks_.host();
+    record_.process = getpid();
+    record_.ranks = ranks_.size();
+    record_.begun_unix_s = unix_time_s();
+    record_.end.reset();
+    hold_->write(record_);
+    say(fmt::format("{} begins", entry.name));
+    return entry;
+  }
+
+  // It is held. Where it cannot be read the run says why.
+  bool is_to_begin(const Entry& entry) {
+    Handled& handled = handled_[entry.name];
+    const std::optional<EntryRecord> before = read_record(entry);
+    const bool is_known = handled.version == entry.version && handled.needed_s;
+    if (is_known && !(before && before->begun_unix_s > handled.unix_s)) {
+      return *handled.needed_s <= time_left();
+    }
+    handled = {entry.version, {}, unix_time_s()};
+    record_ = {};
+    try {
+      const StudyInput input = work_.read(entry);
+      record_.input_sha256 = work_.identify(input, ranks_);
+      if (has_ended(before)) return false;
+      return has_time(entry, input, handled);
+    } catch (const std::exception&) {
+      return true;
+    }
+  }
+
+  bool has_ended(const std::optional<EntryRecord>& before) const {
+    if (!before || !before->end || before->input_sha256 != record_.input_sha256) return false;
+    if (before->end->exit_code == kExitResumable) return false;
+    return !options_.retries || before->end->unix_s >= start_unix_s_;
+  }
+
+  bool has_time(const Entry& entry, const StudyInput& input, Handled& handled) {
+    if (!options_.deadline.begin_until) return true;
+    const double left_s = time_left();
+    const std::optional<double> needed_s = time_needed(entry, input, ranks_.size(), left_s);
+    if (!needed_s || *needed_s <= time_left()) return true;
+    handled.needed_s = needed_s;
+    say(fmt::format(
+        "{} takes about {}, {} are left: {}", entry.name, duration_text(*needed_s),
+        duration_text(left_s),
+        *needed_s <= allocation_s_ ? "it waits for another allocation" : "it comes last"));
+    return false;
+  }
+
+  Transport& ranks_;
+  const DrainOptions& options_;
+  const DrainWork& work_;
+  Folder folder_;
+  double start_unix_s_;
+  double allocation_s_;
+  Clock::time_point idle_since_;
+  std::map<std::string, Handled> handled_;
+  bool is_any_unsettled_ = false;  // a file that is being written
+  std::optional<EntryHold> hold_;  // of the entry in hand
+  EntryRecord record_;
+};
+
+// What rank 0 has chosen, for all; nothing when the queue ends.
+std::optional<Entry> share(const std::optional<Entry>& entry, Transport& ranks) {
+  std::string bytes;
+  if (entry)
+    bytes = to_bytes(std::vector{entry->name, entry->file.string(), entry->results.string(),
+                                 entry->record.string(),
+                                 std::string(entry->kind ? name_of(*entry->kind) : "")});
+  ranks.broadcast(bytes);
+  if (bytes.empty()) return std::nullopt;
+  const auto parts = from_bytes<std::vector<std::string>>(bytes);
+  return Entry{parts[0], parts[1], parts[2], parts[3], find_word<FileKind>(parts[4])};
+}
+
+}  // namespace
+
+int drain(Transport& ranks, const DrainOptions& options, const DrainWork& work) {
+  std::optional<Chooser> chooser;
+  if (ranks.rank() == 0) chooser.emplace(ranks, options, work);
+  int gravest = kDone;
+  for (;;) {
+    const std::optional<Entry> entry = share(chooser ? chooser->next() : std::nullopt, ranks);
+    if (!entry) break;
+    const EntryAnswer answer = work.run(*entry, ranks);
+    if (chooser) chooser->finish(*entry, answer);
+    gravest = std::max(gravest, answer.code);
+  }
+  if (chooser && chooser->leaves_any()) gravest = std::max(gravest, kExitResumable);
+  return ranks.agree_exit_code(gravest);
+}
+
+}  // namespace linkstudy::queue
