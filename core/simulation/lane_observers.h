@@ -19,6 +19,7 @@ class LaneObservers {
       const std::size_t n = form.comparisons[i].max_error.size();
       comparisons_[i].max_error.assign(n, Real(0.0));
       comparisons_[i].square_error.assign(n, Real(0.0));
+      comparisons_[i].shares_reference = shares_reference(i);
     }
     reductions_.resize(form.reductions.size());
     rows_.resize(form.series.size());
@@ -35,7 +36,7 @@ class LaneObservers {
       return values(observer, i, c) + Real(0.0);
     };
     for (std::size_t i = 0; i < comparisons_.size(); ++i, ++observer) {
-      compare(form.comparisons[i], comparisons_[i], step, of);
+      compare(form.comparisons[i], i, step, of);
     }
     for (std::size_t i = 0; i < reductions_.size(); ++i, ++observer) {
       reduce(form.reductions[i], reductions_[i], step, of);
@@ -58,6 +59,7 @@ class LaneObservers {
  private:
   struct LaneComparison {
     std::size_t seen = 0;
+    bool shares_reference = true;               // one of all lanes
     std::vector<Real> max_error, square_error;  // (channels)
     Real max_vector_error = Real(0.0);
   };
@@ -76,15 +78,35 @@ class LaneObservers {
     Real min_place = Real(0.0), max_place = Real(0.0);
   };
 
+  bool shares_reference(std::size_t k) const {
+    const double* first = cases_[0].observers->comparisons[k].reference;
+    for (int i = 1; i < count_; ++i) {
+      if (cases_[i].observers->comparisons[k].reference != first) return false;
+    }
+    return true;
+  }
+
+  // Number `at` of the reference of comparison k, times its sign; lanes without a case take the
+  // first.
+  Real reference_at(const Comparison& form, std::size_t k, std::size_t at, double sign) const {
+    Real value(sign * form.reference[at]);
+    if (comparisons_[k].shares_reference) return value;
+    for (int i = 1; i < count_; ++i) {
+      set_lane(value, i, sign * cases_[i].observers->comparisons[k].reference[at]);
+    }
+    return value;
+  }
+
   template <class Of>
-  static void compare(const Comparison& form, LaneComparison& s, long step, Of&& of) {
+  void compare(const Comparison& form, std::size_t k, long step, Of&& of) {
     if (!form.sampling.hits(step)) return;
+    LaneComparison& s = comparisons_[k];
     const std::size_t n = s.max_error.size();
-    const double* reference = form.reference + (form.is_constant ? std::size_t{0} : s.seen * n);
+    const std::size_t row = form.is_constant ? std::size_t{0} : s.seen * n;
     const Real weight(time_weight(form.sampling, {}, step));
     Real vector_square(0.0);
     for (std::size_t i = 0; i < n; ++i) {
-      const Real error = of(i, form.channels[i]) - Real(form.sign[i] * reference[i]);
+      const Real error = of(i, form.channels[i]) - reference_at(form, k, row + i, form.sign[i]);
       s.max_error[i] = max(s.max_error[i], abs(error));
       s.square_error[i] = madd(weight * error, error, s.square_error[i]);
       vector_square = madd(error, error, vector_square);

@@ -3,22 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 
 #include "study/config/precedence.h"
-#include "study/evaluate/derived_damping.h"
 #include "study/metrics/invalid_point.h"
 
 namespace linkstudy {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::string_view kOffsetPrefix = "experiment.";
-constexpr std::uint32_t kAttempts = 3;  // an exception may be the machine's and not the point's
 
 // A model that is there, or the first thing that is wrong with it.
 ModelInput require_model(const ModelDocument& document, const std::vector<Override>& set) {
@@ -27,66 +22,6 @@ ModelInput require_model(const ModelDocument& document, const std::vector<Overri
   if (model) return std::move(*model);
   throw InvalidPoint(diagnostics.sorted().front().message);
 }
-
-StudySignals require_signals(const StudyInput& input, const Mechanism& mechanism,
-                             const MeasuredSet* measured) {
-  Diagnostics diagnostics;
-  const std::vector<Channel> channels = list_channels(mechanism);
-  StudySignals signals = find_case_signals(input, channels, diagnostics);
-  if (!diagnostics.empty()) throw InvalidPoint(diagnostics.sorted().front().message);
-  if (measured == nullptr) return signals;
-  for (const MeasuredSignal& one : measured->signals) {
-    const auto found = std::ranges::find(channels, one.channel, &Channel::name);
-    if (found == channels.end()) {
-      throw InvalidPoint(fmt::format("the model has no channel '{}'", one.channel));
-    }
-    signals.measured.push_back(*found);
-  }
-  return signals;
-}
-
-void fail(Evaluation& result, Cause cause, const std::string& message) {
-  result.status = cause;
-  result.message = message;
-}
-
-// A step of one evaluation; what it throws ends that one and no other.
-template <class Step>
-void guard(Evaluation& result, const Step& step) {
-  try {
-    step();
-  } catch (const InvalidPoint& error) {
-    fail(result, Cause::invalid_point, error.what());
-  } catch (const ReferenceFailure& error) {
-    const bool is_cancelled = error.cause() == Cause::cancelled;
-    fail(result, is_cancelled ? Cause::cancelled : Cause::exception, error.what());
-  } catch (const std::exception& error) {
-    fail(result, Cause::exception, error.what());
-  }
-}
-
-std::string named(const LoadCaseInput& load_case, const std::string& text) {
-  if (load_case.name.empty()) return text;
-  return fmt::format("{} '{}': {}", load_case.measured ? "experiment" : "load case", load_case.name,
-                     text);
-}
-
-void name_load_case(const LoadCaseInput& load_case, Evaluation& result) {
-  if (result.status != Cause::ok) result.message = named(load_case, result.message);
-}
-
-// Adds the time it lives.
-class Stopwatch {
- public:
-  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-  ~Stopwatch() { seconds_ += std::chrono::duration<double>(Clock::now() - begin_).count(); }
-
- private:
-  double& seconds_;
-  Clock::time_point begin_ = Clock::now();
-};
 
 std::optional<std::vector<Channel>> read_channels(const ModelDocument& document,
                                                   const std::vector<Override>& set,
@@ -288,14 +223,29 @@ MeasuredRun Evaluator::measured_run(std::size_t load_case, const Point& point) {
 }
 
 const ReferenceRecord& Evaluator::run_reference(std::size_t load_case) {
-  const std::lock_guard lock(mutex_);
-  std::optional<ReferenceRecord>& record = references_.at(load_case);
-  if (!record) record = linkstudy::run_reference(input_, load_cases_[load_case], limits_of(0.0));
-  return *record;
+  run_references({&load_case, 1});
+  return *known_reference(load_case);
 }
 
 void Evaluator::run_references() {
-  for (std::size_t i = 0; i < load_case_count(); ++i) reference(i);
+  std::vector<std::size_t> all;
+  for (std::size_t i = 0; i < load_case_count(); ++i) {
+    if (has_reference(i)) all.push_back(i);
+  }
+  run_references(all);
+}
+
+void Evaluator::run_references(std::span<const std::size_t> load_cases) {
+  const std::lock_guard lock(mutex_);
+  std::vector<std::size_t> missing;
+  std::vector<const LoadCaseInput*> inputs;
+  for (const std::size_t i : load_cases) {
+    if (references_.at(i)) continue;
+    missing.push_back(i);
+    inputs.push_back(&load_cases_[i]);
+  }
+  std::vector<ReferenceRecord> records = linkstudy::run_references(input_, inputs, limits_of(0.0));
+  for (std::size_t k = 0; k < missing.size(); ++k) references_[missing[k]] = std::move(records[k]);
 }
 
 const ReferenceRecord* Evaluator::known_reference(std::size_t load_case) const {
@@ -337,154 +287,6 @@ std::optional<ModelInput> Evaluator::reference_model_at(std::size_t load_case) c
   if (!has_reference(load_case)) return std::nullopt;
   const LoadCaseInput& one = load_cases_.at(load_case);
   return read_reference(reference_view(input_, one), one);
-}
-
-struct Evaluator::Attempt {
-  explicit Attempt(const Point& point) { result.point = point; }
-  Evaluation result;
-  double spent_s = 0.0;
-  bool is_running() const { return result.status == Cause::ok; }
-};
-
-std::vector<Evaluation> Evaluator::evaluate(std::span<const Point> points) {
-  std::vector<Attempt> attempts(points.begin(), points.end());
-  attempt(attempts);
-  for (Attempt& one : attempts) {
-    for (std::uint32_t i = 2; i <= kAttempts && one.result.status == Cause::exception; ++i) {
-      if (cancelled_) break;
-      one = Attempt(one.result.point);
-      attempt({&one, 1});
-      one.result.attempts = i;
-    }
-  }
-  std::vector<Evaluation> results;
-  for (Attempt& one : attempts) {
-    one.result.responses.resize(responses_.size(), kNan);
-    if (one.result.status != Cause::ok) one.result.residuals.clear();
-    results.push_back(std::move(one.result));
-  }
-  return results;
-}
-
-void Evaluator::attempt(std::span<Attempt> attempts) {
-  for (std::size_t i = 0; i < load_cases_.size(); ++i) {
-    std::vector<Attempt*> running;
-    for (Attempt& one : attempts)
-      if (one.is_running()) running.push_back(&one);
-    const auto cases = prepare_cases(i, attempts);
-    for (const CaseGroup& group : group_cases(cases)) run_group(i, group, attempts);
-    for (Attempt* one : running) name_load_case(load_cases_[i], one->result);
-  }
-}
-
-std::vector<std::unique_ptr<PreparedCase>> Evaluator::prepare_cases(std::size_t load_case,
-                                                                    std::span<Attempt> attempts) {
-  std::vector<std::unique_ptr<PreparedCase>> cases;
-  for (std::size_t i = 0; i < attempts.size(); ++i) {
-    Attempt& one = attempts[i];
-    if (!one.is_running()) continue;
-    const Stopwatch watch(one.spent_s);
-    std::unique_ptr<PreparedCase> prepared;
-    const RunMetrics* like = cases.empty() ? nullptr : &cases.back()->metrics;
-    guard(one.result, [&] { prepared = prepare_case(load_case, i, one, like); });
-    if (prepared) cases.push_back(std::move(prepared));
-  }
-  std::erase_if(cases, [&](const auto& item) { return end_if_late(attempts[item->point]); });
-  return cases;
-}
-
-// The others of a group must not wait for one that has no time left.
-bool Evaluator::end_if_late(Attempt& attempt) const {
-  if (cancelled_) {
-    fail(attempt.result, Cause::cancelled, "cancelled");
-    return true;
-  }
-  const bool is_late = timeout_s_ > 0.0 && attempt.spent_s >= timeout_s_;
-  if (is_late) fail(attempt.result, Cause::timeout, "wall time used up before the run");
-  return is_late;
-}
-
-// Nothing when it ended here.
-std::unique_ptr<PreparedCase> Evaluator::prepare_case(std::size_t load_case, std::size_t point,
-                                                      Attempt& attempt, const RunMetrics* like) {
-  const ReferenceRecord* record = reference(load_case);
-  const ModelInput input = model_at(load_case, attempt.result.point.values);
-  Preparation preparation = prepare(input.linkage, input.options);
-  if (preparation.cause != Cause::ok) {
-    fail(attempt.result, preparation.cause, preparation.message);
-    return nullptr;
-  }
-  for (const std::string& warning : preparation.warnings) {
-    attempt.result.warnings.push_back(named(load_cases_[load_case], warning));
-  }
-  const std::string& name = load_cases_[load_case].name;
-  add_damping(input.linkage, preparation.model, name.empty() ? "" : name + "_",
-              attempt.result.derived);
-  const MeasuredRun measured = measured_run(load_case, attempt.result.point);
-  const StudySignals signals =
-      require_signals(input_, preparation.model.mechanism, measured.set.get());
-  RunMetrics metrics(input_, signals, input.options, record, like, measured);
-  const KnownLimit limit = find_known_limit(preparation, record);
-  return std::unique_ptr<PreparedCase>(new PreparedCase{point, input.options,
-                                                        std::move(preparation), std::move(metrics),
-                                                        SimulationOutcome(), limit});
-}
-
-void Evaluator::run_group(std::size_t load_case, const CaseGroup& group,
-                          std::span<Attempt> attempts) {
-  double spent_s = 0.0;
-  try {
-    const Stopwatch watch(spent_s);
-    run_cases(group, limits_of(time_left(group, attempts)));
-  } catch (const std::exception& error) {
-    for (const PreparedCase* item : group) {
-      fail(attempts[item->point].result, Cause::exception, error.what());
-    }
-    return;
-  }
-  for (const PreparedCase* item : group) {
-    Attempt& one = attempts[item->point];
-    one.spent_s += spent_s;
-    const Stopwatch watch(one.spent_s);
-    guard(one.result, [&] { store(load_case, *item, one); });
-  }
-}
-
-void Evaluator::store(std::size_t load_case, const PreparedCase& item, Attempt& attempt) {
-  Evaluation& result = attempt.result;
-  // Nobody's result, and somebody waits.
-  if (item.outcome.cause == Cause::cancelled) {
-    fail(result, Cause::cancelled, item.outcome.message);
-    return;
-  }
-  const SimulationOutcome outcome = item.metrics.judged(item.outcome);
-  const std::vector<double> numbers = item.metrics.reduce(outcome);
-  result.responses.insert(result.responses.end(), numbers.begin(), numbers.end());
-  const std::vector<double> residuals = item.metrics.residuals(outcome);
-  result.residuals.insert(result.residuals.end(), residuals.begin(), residuals.end());
-  std::vector<Trace> traces = item.metrics.traces();
-  if (!traces.empty()) {
-    result.traces.push_back({load_cases_[load_case].name, std::move(traces)});
-  }
-  if (auto contacts = item.metrics.contacts(item.preparation.model.mechanism)) {
-    result.contacts.push_back({load_cases_[load_case].name, std::move(*contacts)});
-  }
-  if (outcome.cause != Cause::ok) fail(result, outcome.cause, outcome.message);
-}
-
-// What is left to the case with most of it: one that was long in preparing takes nothing from the
-// others.
-double Evaluator::time_left(const CaseGroup& group, std::span<Attempt> attempts) const {
-  if (timeout_s_ <= 0.0) return 0.0;
-  double left = 1e-6;
-  for (const PreparedCase* item : group) {
-    left = std::max(left, timeout_s_ - attempts[item->point].spent_s);
-  }
-  return left;
-}
-
-RunLimits Evaluator::limits_of(double timeout_s) {
-  return {timeout_s, &cancelled_, &reached_};
 }
 
 }  // namespace linkstudy

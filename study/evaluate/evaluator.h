@@ -1,12 +1,12 @@
 // From points of the parameter space to their numbers; the only caller of the engine in study/.
 //   point -> overrides on the base model -> ModelInput -> prepare -> simulate -> responses
-// in every load case, one after the other; the first that fails ends the evaluation with its cause.
-// Points that can share step loops run side by side (prepared_case.h); what a point gets is, to the
-// last bit, what it gets alone. An invalid model is Cause::invalid_point with the first diagnostic
-// as message, an exception Cause::exception after three attempts, the second and third alone. The
-// reference of a load case is run when first needed, or given, and kept.
-// cancel() ends what runs between two blocks of steps; what has no answer by then is
-// Cause::cancelled: nobody's result, to be asked for again.
+// in every load case; the first that fails, in their order, ends the evaluation with its cause.
+// Points, and load cases where points alone do not fill the lanes, run side by side where they can
+// share step loops (prepared_case.h); what a point gets is, to the last bit, what it gets alone. An
+// invalid model is Cause::invalid_point with the first diagnostic as message, an exception
+// Cause::exception after three attempts, the second and third alone. The reference of a load case
+// is run when first needed, or given, and kept. cancel() ends what runs between two blocks of
+// steps; what has no answer by then is Cause::cancelled: nobody's result, to be asked for again.
 #pragma once
 
 #include <atomic>
@@ -59,6 +59,8 @@ class Evaluator {
   // Cause::cancelled after cancel().
   const ReferenceRecord& run_reference(std::size_t load_case);
   void run_references();
+  // Those that are missing of these, side by side. Throws as run_reference.
+  void run_references(std::span<const std::size_t> load_cases);
   // Null where it has not been run yet.
   const ReferenceRecord* known_reference(std::size_t load_case) const;
   // As another start or another rank ran it. Throws std::out_of_range where it is none of this
@@ -93,14 +95,16 @@ class Evaluator {
   const ReferenceRecord* reference(std::size_t load_case);
   struct Attempt;
   void attempt(std::span<Attempt> attempts);
-  std::vector<std::unique_ptr<PreparedCase>> prepare_cases(std::size_t load_case,
-                                                           std::span<Attempt> attempts);
+  void attempt(std::size_t first, std::size_t last, std::span<Attempt> attempts);
+  void prepare_cases(std::size_t load_case, std::span<Attempt> attempts,
+                     std::vector<std::unique_ptr<PreparedCase>>& cases);
   std::unique_ptr<PreparedCase> prepare_case(std::size_t load_case, std::size_t point,
                                              Attempt& attempt, const RunMetrics* like);
   bool end_if_late(Attempt& attempt) const;
   RunLimits limits_of(double timeout_s);
-  void run_group(std::size_t load_case, const CaseGroup& group, std::span<Attempt> attempts);
-  void store(std::size_t load_case, const PreparedCase& item, Attempt& attempt);
+  void run_group(const CaseGroup& group, std::span<Attempt> attempts);
+  void store(const PreparedCase& item, Evaluation& part) const;
+  void join(Attempt& attempt) const;
   double time_left(const CaseGroup& group, std::span<Attempt> attempts) const;
 
   StudyInput input_;

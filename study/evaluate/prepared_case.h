@@ -1,4 +1,4 @@
-// Points in one load case, ready to run, and runs of those that can share step loops: one
+// Points in a load case, ready to run, and runs of those that can share step loops: one
 // structure, one step grid, observers of one form. How cases are put together changes no bit.
 #pragma once
 
@@ -12,6 +12,7 @@
 namespace linkstudy {
 
 struct PreparedCase {
+  std::size_t load_case;
   std::size_t point;  // position among the points evaluated together
   SimulationOptions options;
   Preparation preparation;
@@ -20,8 +21,7 @@ struct PreparedCase {
   KnownLimit limit{};         // of the step, before the run
 };
 
-// In the order given, each beside the first it can share a step loop with. All are of one load
-// case, so that equal grids are compared with equal references.
+// In the order given, each beside the first it can share a step loop with.
 using CaseGroup = std::vector<PreparedCase*>;
 std::vector<CaseGroup> group_cases(const std::vector<std::unique_ptr<PreparedCase>>& cases);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "study/config/precedence.h"
+#include "study/evaluate/step_sharing.h"
 #include "study/metrics/cycle.h"
 
 namespace linkstudy {
@@ -116,40 +117,103 @@ StudyInput reference_view(const StudyInput& input, const LoadCaseInput& load_cas
   return view;
 }
 
-ReferenceRecord run_reference(const StudyInput& study, const LoadCaseInput& load_case,
-                              const RunLimits& limits) {
-  const StudyInput input = reference_view(study, load_case);
-  const ModelInput model = read_reference(input, load_case);
-  Preparation preparation = prepare(model.linkage, model.options);
-  if (preparation.cause != Cause::ok) fail(load_case, preparation.cause, preparation.message);
-  const Mechanism& mechanism = preparation.model.mechanism;
-  const std::vector<Channel> all = list_channels(mechanism);
-  Diagnostics diagnostics;
-  const StudySignals signals = find_reference_signals(input, all, diagnostics);
-  if (!diagnostics.empty()) {
-    fail(load_case, Cause::invalid_point, diagnostics.sorted().front().message);
+namespace {
+
+// From the model of a load case to its record.
+class ReferenceRun {
+ public:
+  ReferenceRun(const StudyInput& study, const LoadCaseInput& load_case)
+      : input_(reference_view(study, load_case)),
+        load_case_(load_case),
+        model_(read_reference(input_, load_case)),
+        preparation_(prepare(model_.linkage, model_.options)) {
+    if (preparation_.cause != Cause::ok) {
+      fail(load_case, preparation_.cause, preparation_.message);
+    }
+    const std::vector<Channel> all = list_channels(mechanism());
+    Diagnostics diagnostics;
+    signals_ = find_reference_signals(input_, all, diagnostics);
+    if (!diagnostics.empty()) {
+      fail(load_case, Cause::invalid_point, diagnostics.sorted().front().message);
+    }
+    grid_ = make_step_grid(model_.options);
+    observers_ = make_observers(input_, signals_, all, grid_, model_.options.output_interval);
+    watch_.emplace(input_, signals_, grid_, observers_);
   }
-  ReferenceRecord record;
-  record.warnings = preparation.warnings;
-  record.grid = make_step_grid(model.options);
-  Observers observers =
-      make_observers(input, signals, all, record.grid, model.options.output_interval);
-  const ResponseWatch watch(input, signals, record.grid, observers);
-  const SimulationOutcome outcome =
-      simulate(mechanism, preparation.model.parameters, preparation.model.start, model.options,
-               observers, limits, worse({}, preparation.spectrum, preparation.model.start.t));
-  if (outcome.cause != Cause::ok) fail(load_case, outcome.cause, outcome.message);
-  record.responses = reduce_responses(input, signals, watch, observers, model.options.end_time);
-  observers.series.resize(observers.series.size() - watch.series_count());
-  record.joints = mechanism.joint_names;
-  record.poses = to_states(observers.series.back(), mechanism);
-  observers.series.pop_back();
-  record.traces = to_traces(observers.series.back());
-  observers.series.pop_back();
-  record.cycles = find_cycles(input, load_case, observers.series, record.grid);
-  observers.series.resize(input.match.size());
-  record.match = std::move(observers.series);
-  return record;
+  ReferenceRun(const ReferenceRun&) = delete;
+  ReferenceRun& operator=(const ReferenceRun&) = delete;
+
+  const Mechanism& mechanism() const { return preparation_.model.mechanism; }
+  const SimulationOptions& options() const { return model_.options; }
+
+  bool can_share(const ReferenceRun& other) const {
+    return can_share_steps({preparation_.model, model_.options, observers_},
+                           {other.preparation_.model, other.model_.options, other.observers_});
+  }
+
+  BatchCase make_case() {
+    const Model& model = preparation_.model;
+    return {&model.parameters,
+            &model.start,
+            &observers_,
+            {},
+            worse({}, preparation_.spectrum, model.start.t)};
+  }
+
+  ReferenceRecord finish(const SimulationOutcome& outcome) {
+    if (outcome.cause != Cause::ok) fail(load_case_, outcome.cause, outcome.message);
+    ReferenceRecord record;
+    record.warnings = preparation_.warnings;
+    record.grid = grid_;
+    record.responses =
+        reduce_responses(input_, signals_, *watch_, observers_, model_.options.end_time);
+    std::vector<Series>& series = observers_.series;
+    series.resize(series.size() - watch_->series_count());
+    record.joints = mechanism().joint_names;
+    record.poses = to_states(series.back(), mechanism());
+    series.pop_back();
+    record.traces = to_traces(series.back());
+    series.pop_back();
+    record.cycles = find_cycles(input_, load_case_, series, grid_);
+    series.resize(input_.match.size());
+    record.match = std::move(series);
+    return record;
+  }
+
+ private:
+  const StudyInput input_;
+  const LoadCaseInput& load_case_;
+  const ModelInput model_;
+  const Preparation preparation_;
+  StudySignals signals_;
+  StepGrid grid_{};
+  Observers observers_;
+  std::optional<ResponseWatch> watch_;
+};
+
+}  // namespace
+
+std::vector<ReferenceRecord> run_references(const StudyInput& study,
+                                            std::span<const LoadCaseInput* const> load_cases,
+                                            const RunLimits& limits) {
+  std::vector<std::unique_ptr<ReferenceRun>> runs;
+  for (const LoadCaseInput* one : load_cases) {
+    runs.push_back(std::make_unique<ReferenceRun>(study, *one));
+  }
+  std::vector<SimulationOutcome> outcomes(runs.size());
+  const auto can_share = [](const ReferenceRun& a, const ReferenceRun& b) {
+    return a.can_share(b);
+  };
+  for (const std::vector<std::size_t>& group : group_alike(runs, can_share)) {
+    std::vector<BatchCase> cases;
+    for (const std::size_t i : group) cases.push_back(runs[i]->make_case());
+    const ReferenceRun& first = *runs[group.front()];
+    simulate_batch(first.mechanism(), first.options(), cases, limits);
+    for (std::size_t k = 0; k < group.size(); ++k) outcomes[group[k]] = cases[k].outcome;
+  }
+  std::vector<ReferenceRecord> records;
+  for (std::size_t i = 0; i < runs.size(); ++i) records.push_back(runs[i]->finish(outcomes[i]));
+  return records;
 }
 
 KnownLimit find_known_limit(const Preparation& preparation, const ReferenceRecord* reference) {

@@ -30,9 +30,11 @@ StudyInput reference_view(const StudyInput& input, const LoadCaseInput& load_cas
 // The model of that run, where reference_view is one. Throws ReferenceFailure.
 ModelInput read_reference(const StudyInput& view, const LoadCaseInput& load_case);
 
-// The reference with these values set (a load case). Throws ReferenceFailure.
-ReferenceRecord run_reference(const StudyInput& input, const LoadCaseInput& load_case,
-                              const RunLimits& limits);
+// The reference with the values of each load case set, side by side where runs can share step
+// loops; a record has the bits of a run alone. Throws ReferenceFailure, of the first that fails.
+std::vector<ReferenceRecord> run_references(const StudyInput& study,
+                                            std::span<const LoadCaseInput* const> load_cases,
+                                            const RunLimits& limits);
 
 // Highest eigenfrequency and smallest step limit of a prepared case at its start and at the
 // reference's poses, as far as both have the same joints; along: whether they have.

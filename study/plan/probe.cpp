@@ -55,7 +55,9 @@ RunPace Probe::measure_reference(double seconds) {
   RunPace pace;
   const double begin = cpu_seconds();
   try {
-    evaluator_->set_reference(0, run_reference(evaluator_->input(), load_case, limits));
+    const LoadCaseInput* one = &load_case;
+    evaluator_->set_reference(
+        0, std::move(run_references(evaluator_->input(), {&one, 1}, limits).front()));
   } catch (const ReferenceFailure& failure) {
     if (failure.cause() != Cause::timeout) throw;
     pace.share = std::clamp(reached.load() / end_time, kLeastShare, 1.0);

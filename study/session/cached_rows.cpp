@@ -21,10 +21,6 @@ inline constexpr auto kWords<CacheMiss> =
                            {CacheMiss::other_rounding, "of another instruction set"},
                            {CacheMiss::damaged, "damaged"}});
 
-void visit_members(auto& archive, Like<KnownReference> auto& reference) {
-  archive(reference.bytes, reference.warnings);
-}
-
 CachedRows::CachedRows(ResultCache cache, spdlog::logger& log)
     : cache_(std::move(cache)), log_(log) {}
 

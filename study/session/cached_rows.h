@@ -21,6 +21,10 @@ struct KnownReference {
   std::vector<std::string> warnings;
 };
 
+void visit_members(auto& archive, Like<KnownReference> auto& reference) {
+  archive(reference.bytes, reference.warnings);
+}
+
 class CachedRows {
  public:
   // `log` outlives this.

@@ -114,8 +114,33 @@ class Launch {
   }
 
   int make_references() {
-    if (is_first()) run_references(*evaluator_, *record_, *known_, deadline_, *log_);
-    return kDone;
+    const auto compute = [this](const std::string& task) {
+      return run_reference_task(*evaluator_, task);
+    };
+    std::vector<std::size_t> missing;
+    if (is_first()) missing = take_references(*evaluator_, *record_, *known_, *log_);
+    PoolOptions options = pool_options();
+    options.task_limit_s = 0.0;  // --timeout is that of evaluations
+    Pool pool(transport_, compute, options);
+    if (!is_first()) {
+      pool.serve();
+      return kDone;
+    }
+    return lead_references(missing, pool);
+  }
+
+  int lead_references(const std::vector<std::size_t>& missing, Pool& pool) {
+    if (missing.empty()) return kDone;
+    bool is_interrupted = false;
+    try {
+      run_references(missing, *evaluator_, *record_, *known_, pool, *log_);
+    } catch (const Interrupted&) {
+      is_interrupted = true;
+      log_->warn("reference runs are left to the next start");
+    }
+    record_->journal().sync();
+    if (!pool.close()) pool.leave_now(kExitResumable);
+    return is_interrupted ? kExitResumable : kDone;
   }
 
   int open_record() {

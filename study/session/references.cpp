@@ -2,19 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
-#include <future>
+#include <algorithm>
 #include <stdexcept>
 
+#include "core/base/isa.h"
 #include "study/evaluate/reference_bytes.h"
-#include "study/schedule/stop_signals.h"
+#include "study/record/bytes.h"
 #include "study/session/interrupted.h"
 #include "study/session/warnings.h"
 
 namespace linkstudy {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 // A reference that is longer is run again by the next start.
 constexpr std::size_t kMostStoredBytes = std::size_t{1} << 30;
@@ -39,27 +37,6 @@ void warn(const std::string& title, const std::vector<std::string>& warnings, sp
   for (const std::string& text : warnings) say_warning(fmt::format("{}: {}", title, text), log);
 }
 
-// In a thread of its own, so that a stop signal is seen while it runs.
-void run_one(Evaluator& evaluator, std::size_t i, const RunDeadline& deadline,
-             spdlog::logger& log) {
-  if (stop_level() > 0 || deadline.forbids_to_begin()) throw Interrupted();
-  std::future<void> running = std::async(std::launch::async, [&] { evaluator.run_reference(i); });
-  bool cancelled = false;
-  while (running.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready) {
-    if (cancelled || (stop_level() < kStopCancel && !deadline.is_over())) continue;
-    cancelled = true;
-    evaluator.cancel();
-    log.warn("{} cancelled by {}", title_of(evaluator, i),
-             stop_level() > 0 ? "a stop signal" : "the end of the wall time");
-  }
-  try {
-    running.get();
-  } catch (const ReferenceFailure& failure) {
-    if (failure.cause() == Cause::cancelled) throw Interrupted();
-    throw;
-  }
-}
-
 void keep(const Evaluator& evaluator, std::size_t i, std::string bytes, StudyRecord& record,
           spdlog::logger& log) {
   if (bytes.size() > kMostStoredBytes) {
@@ -70,31 +47,108 @@ void keep(const Evaluator& evaluator, std::size_t i, std::string bytes, StudyRec
   record.add_reference({evaluator.load_case_name(i), std::move(bytes)});
 }
 
+// What a rank found: records, or why there are none.
+struct ReferenceAnswer {
+  Cause cause = Cause::ok;
+  std::string message;
+  std::vector<KnownReference> records;
+};
+
+void visit_members(auto& archive, Like<ReferenceAnswer> auto& answer) {
+  archive.template as<std::uint8_t>(answer.cause, kWords<Cause>.size());
+  archive(answer.message, answer.records);
+}
+
+// As wide as fills the lanes when every rank has some.
+std::vector<std::vector<std::size_t>> form_tasks(const std::vector<std::size_t>& load_cases,
+                                                 int ranks) {
+  const auto count = static_cast<std::size_t>(ranks);
+  const std::size_t of_rank = (load_cases.size() + count - 1) / count;
+  const std::size_t width =
+      std::clamp(of_rank, std::size_t{1}, static_cast<std::size_t>(simd_level().lanes));
+  std::vector<std::vector<std::size_t>> tasks;
+  for (std::size_t i = 0; i < load_cases.size(); i += width) {
+    const auto begin = load_cases.begin() + static_cast<std::ptrdiff_t>(i);
+    const std::size_t size = std::min(width, load_cases.size() - i);
+    tasks.emplace_back(begin, begin + static_cast<std::ptrdiff_t>(size));
+  }
+  return tasks;
+}
+
+// What could not be sent (over 2 GiB), or a rank had no memory for, is made here.
+ReferenceAnswer answer_of(const TaskResult& result, const std::string& task, Evaluator& evaluator) {
+  return from_bytes<ReferenceAnswer>(result.failed ? run_reference_task(evaluator, task)
+                                                   : result.bytes);
+}
+
 }  // namespace
 
-void run_references(Evaluator& evaluator, StudyRecord& record, KnownRows& known,
-                    const RunDeadline& deadline, spdlog::logger& log) {
+std::vector<std::size_t> take_references(Evaluator& evaluator, StudyRecord& record,
+                                         KnownRows& known, spdlog::logger& log) {
+  std::vector<std::size_t> others;
   for (std::size_t i = 0; i < evaluator.load_case_count(); ++i) {
     if (!evaluator.has_reference(i)) continue;
     const StoredReference* stored = record.reference(evaluator.load_case_name(i));
     if (stored != nullptr && take_bytes(evaluator, i, stored->bytes, log)) continue;
     std::optional<KnownReference> one = known.find_reference(i);
-    if (one && take_bytes(evaluator, i, one->bytes, log)) {
-      log.info("{} is taken from an earlier one", title_of(evaluator, i));
-      warn(title_of(evaluator, i), one->warnings, log);
-      keep(evaluator, i, std::move(one->bytes), record, log);
+    if (!one || !take_bytes(evaluator, i, one->bytes, log)) {
+      others.push_back(i);
       continue;
     }
-    const auto begin = Clock::now();
-    run_one(evaluator, i, deadline, log);
-    const ReferenceRecord& run = evaluator.run_reference(i);
-    warn(title_of(evaluator, i), run.warnings, log);
-    KnownReference made{encode_reference(run), run.warnings};
-    known.keep_reference(i, made);
-    keep(evaluator, i, std::move(made.bytes), record, log);
-    log.info("{} took {:.3g} s", title_of(evaluator, i),
-             std::chrono::duration<double>(Clock::now() - begin).count());
+    log.info("{} is taken from an earlier one", title_of(evaluator, i));
+    warn(title_of(evaluator, i), one->warnings, log);
+    keep(evaluator, i, std::move(one->bytes), record, log);
   }
+  return others;
+}
+
+std::string run_reference_task(Evaluator& evaluator, const std::string& task) {
+  ReferenceAnswer answer;
+  const auto load_cases = from_bytes<std::vector<std::uint64_t>>(task);
+  const std::vector<std::size_t> indices(load_cases.begin(), load_cases.end());
+  try {
+    evaluator.run_references(indices);
+    for (const std::size_t i : indices) {
+      const ReferenceRecord& run = evaluator.run_reference(i);
+      answer.records.push_back({encode_reference(run), run.warnings});
+    }
+  } catch (const ReferenceFailure& failure) {
+    answer = {failure.cause(), failure.what(), {}};
+  }
+  return to_bytes(answer);
+}
+
+void run_references(const std::vector<std::size_t>& load_cases, Evaluator& evaluator,
+                    StudyRecord& record, KnownRows& known, Pool& pool, spdlog::logger& log) {
+  const std::vector<std::vector<std::size_t>> packs = form_tasks(load_cases, pool.ranks());
+  std::vector<std::string> tasks;
+  for (const std::vector<std::size_t>& pack : packs) {
+    tasks.push_back(to_bytes(std::vector<std::uint64_t>(pack.begin(), pack.end())));
+  }
+  std::optional<ReferenceFailure> failure;
+  bool is_cancelled = false;
+  const auto take = [&](const TaskResult& result) {
+    const std::vector<std::size_t>& pack = packs[result.index];
+    ReferenceAnswer answer = answer_of(
+        result, to_bytes(std::vector<std::uint64_t>(pack.begin(), pack.end())), evaluator);
+    is_cancelled |= answer.cause == Cause::cancelled;
+    if (answer.cause != Cause::ok) {
+      if (!failure) failure.emplace(answer.cause, answer.message);
+      return pool.cancel();
+    }
+    for (std::size_t k = 0; k < pack.size(); ++k) {
+      KnownReference& made = answer.records.at(k);
+      warn(title_of(evaluator, pack[k]), made.warnings, log);
+      known.keep_reference(pack[k], made);
+      take_bytes(evaluator, pack[k], made.bytes, log);
+      keep(evaluator, pack[k], std::move(made.bytes), record, log);
+      log.info("{} took {:.3g} s on rank {}", title_of(evaluator, pack[k]),
+               result.seconds / static_cast<double>(pack.size()), result.rank);
+    }
+  };
+  const RunOutcome outcome = pool.run(std::move(tasks), take);
+  if (outcome.interrupted() || is_cancelled) throw Interrupted();
+  if (failure) throw *failure;
 }
 
 void share_references(Evaluator& evaluator, Transport& transport) {

@@ -34,8 +34,8 @@ class Grouping : public ::testing::Test {
     signals.response = {find_channels(list_channels(preparation.model.mechanism), "joint.A.v")};
     RunMetrics metrics(input, signals, model->options, nullptr);
     cases_.push_back(std::unique_ptr<PreparedCase>(
-        new PreparedCase{cases_.size(), model->options, std::move(preparation), std::move(metrics),
-                         SimulationOutcome()}));
+        new PreparedCase{0, cases_.size(), model->options, std::move(preparation),
+                         std::move(metrics), SimulationOutcome()}));
   }
 
   std::vector<std::vector<std::size_t>> groups() const {
