@@ -24,8 +24,12 @@ std::vector<std::vector<Point>> sort_by_kind(const std::vector<Point>& points,
 std::vector<Value> deciding_values(const Point& point, const std::vector<Parameter>& parameters) {
   std::vector<Value> values;
   for (std::size_t i = 0; i < parameters.size() && i < point.values.size(); ++i) {
+    const std::string& path = parameters[i].path;
     const bool is_word = std::holds_alternative<std::string>(point.values[i]);
-    if (is_word || parameters[i].path.starts_with("simulation.")) values.push_back(point.values[i]);
+    const bool is_structure = path.ends_with(".segments");
+    if (is_word || is_structure || path.starts_with("simulation.")) {
+      values.push_back(point.values[i]);
+    }
   }
   return values;
 }

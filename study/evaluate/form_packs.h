@@ -10,11 +10,12 @@
 
 namespace linkstudy {
 
-// Values of a point that decide the structure or the steps: its words, and `simulation.*`.
+// Values of a point that decide the structure or the steps: its words, segments of flexible links,
+// and `simulation.*`.
 std::vector<Value> deciding_values(const Point& point, const std::vector<Parameter>& parameters);
 
-// Points in the order given, apart from this: only those that agree in all words and in
-// `simulation.*` values come together, for others rarely fit into one step loop.
+// Points in the order given, apart from this: only those that agree in these values come together,
+// for others rarely fit into one step loop.
 std::vector<std::vector<Point>> form_packs(const std::vector<Point>& points,
                                            const std::vector<Parameter>& parameters, int lanes,
                                            int ranks);

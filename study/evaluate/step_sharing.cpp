@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "study/metrics/study_signals.h"
 #include "core/simulation/simulate.h"
+#include "study/metrics/study_signals.h"
 
 namespace linkstudy {
 namespace {

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "study/plan/at_once.h"
+#include "study/plan/pull_schedule.h"
 
 namespace linkstudy::plan {
 namespace {
@@ -47,7 +49,7 @@ void Costs::measure_references(const Evaluator& study, double seconds) {
     if (!study.has_reference(i)) continue;
     const double part = seconds / static_cast<double>(study.load_case_count());
     const RunPace pace = probes_[i]->measure_reference(std::max(part, kShortestProbe));
-    references_s_ += pace.run_s;
+    references_s_.push_back(pace.run_s);
     measured_.spent_s += pace.spent_s;
   }
 }
@@ -144,16 +146,55 @@ double Costs::run_s(std::size_t kind, std::size_t count) const {
   return beside * std::ceil(static_cast<double>(count) / static_cast<double>(lanes_));
 }
 
+Costs::References Costs::references(int ranks) const {
+  References all;
+  if (references_s_.empty()) return all;
+  const std::size_t count = references_s_.size();
+  const auto of_rank =
+      (count + static_cast<std::size_t>(ranks) - 1) / static_cast<std::size_t>(ranks);
+  const std::size_t width = std::min(of_rank, static_cast<std::size_t>(lanes_));
+  std::vector<double> tasks;
+  for (std::size_t i = 0; i < count; i += width) {
+    const std::span<const double> together =
+        std::span(references_s_).subspan(i, std::min(width, count - i));
+    const double alone = std::accumulate(together.begin(), together.end(), 0.0);
+    const double beside = *std::ranges::max_element(together) / kAloneOverBeside;
+    tasks.push_back(slowdown(ranks) * std::min(alone, beside));
+    all.cpu_s += tasks.back();
+  }
+  all.wall_s = pull(tasks, ranks).wall_s;
+  return all;
+}
+
 double Costs::pack_s(std::span<const Point> pack) const {
-  std::map<std::size_t, std::size_t> counts;
+  const std::size_t count = kinds_.of(pack.front()).size();
+  const std::size_t together =
+      std::max(std::size_t{1}, static_cast<std::size_t>(lanes_) / pack.size());
+  double seconds = 0.0;
+  for (std::size_t i = 0; i < count; i += together) {
+    seconds += load_cases_s(pack, i, std::min(i + together, count));
+  }
+  return seconds;
+}
+
+double Costs::load_cases_s(std::span<const Point> pack, std::size_t first, std::size_t last) const {
+  std::vector<std::pair<std::size_t, std::size_t>> counts;  // of kinds that share their steps
   double seconds = 0.0;
   for (const Point& point : pack) {
-    for (const std::size_t kind : kinds_.of(point)) {
-      ++counts[kind];
-      if (costs_[kind].alone) seconds += costs_[kind].alone->setup_s;
+    const std::vector<std::size_t>& kinds = kinds_.of(point);
+    for (std::size_t i = first; i < std::min(last, kinds.size()); ++i) {
+      if (costs_[kinds[i]].alone) seconds += costs_[kinds[i]].alone->setup_s;
+      const auto found = std::ranges::find_if(counts, [&](const auto& known) {
+        return shares_steps(kinds_.all()[known.first], kinds_.all()[kinds[i]]);
+      });
+      if (found == counts.end()) {
+        counts.emplace_back(kinds[i], 1);
+      } else {
+        ++found->second;
+      }
     }
   }
-  for (const auto& [kind, count] : counts) seconds += run_s(kind, count);
+  for (const auto& [kind, runs] : counts) seconds += run_s(kind, runs);
   return seconds;
 }
 

@@ -24,9 +24,14 @@ class Costs {
   Costs(const Evaluator& study, const RunKinds& kinds, int lanes, int at_once, double seconds);
 
   const Measured& measured() const { return measured_; }
-  // All reference runs, CPU s.
-  double references_s() const { return references_s_; }
-  // Points that are evaluated together: every load case, one after the other. Alone on the machine.
+  // All reference runs, side by side in the lanes of so many ranks.
+  struct References {
+    double cpu_s = 0.0;
+    double wall_s = 0.0;
+  };
+  References references(int ranks) const;
+  // Points that are evaluated together, and load cases beside them where they leave lanes free.
+  // Alone on the machine.
   double pack_s(std::span<const Point> pack) const;
   // Among so many ranks it takes longer by this.
   double slowdown(int ranks) const;
@@ -45,12 +50,13 @@ class Costs {
             std::optional<RunPace>& pace);
   void fill_gaps();
   double run_s(std::size_t kind, std::size_t count) const;
+  double load_cases_s(std::span<const Point> pack, std::size_t first, std::size_t last) const;
 
   const RunKinds& kinds_;
   int lanes_;
   std::vector<std::unique_ptr<Probe>> probes_;  // by load case
   std::vector<KindCost> costs_;                 // by kind
-  double references_s_ = 0.0;
+  std::vector<double> references_s_;            // each alone
   Measured measured_;
 };
 

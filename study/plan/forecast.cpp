@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <set>
 
 #include "study/evaluate/form_packs.h"
@@ -11,6 +12,7 @@ namespace linkstudy::plan {
 namespace {
 
 constexpr std::size_t kMostRanksTried = 256;  // one by one; beyond, powers of two
+constexpr double kServiceS = 2e-6;            // of rank 0 for a task (tests/bench/dispatch.cpp)
 constexpr double kNoShorter = 1.001;
 constexpr std::size_t kMostLayouts = 8;
 
@@ -36,12 +38,13 @@ class Layouts {
         seconds.push_back(costs_ == nullptr ? 0.0 : costs_->slowdown(ranks) * costs_->pack_s(pack));
         work_s += seconds.back();
       }
-      wall_s += pull(seconds, ranks).wall_s;
+      std::ranges::sort(seconds, std::greater());  // as they are handed out
+      wall_s += pull(seconds, ranks, kServiceS).wall_s;
     }
     if (wall_s > 0.0) layout.busy = work_s / (wall_s * ranks);
-    const double references_s = costs_ == nullptr ? 0.0 : costs_->references_s();
-    layout.cpu_s = references_s + work_s;
-    layout.wall_s = references_s + wall_s;
+    const Costs::References references = references_on(ranks);
+    layout.cpu_s = references.cpu_s + work_s;
+    layout.wall_s = references.wall_s + wall_s;
     return layout;
   }
 
@@ -50,10 +53,10 @@ class Layouts {
     Layout layout = certain(ranks);
     if (work_.points.empty() || work_.points.size() == work_.most) return layout;
     const double more = static_cast<double>(work_.most) / static_cast<double>(work_.points.size());
-    const double references_s = costs_ == nullptr ? 0.0 : costs_->references_s();
+    const Costs::References references = references_on(ranks);
     layout.packs = static_cast<std::size_t>(std::ceil(static_cast<double>(layout.packs) * more));
-    layout.cpu_s = references_s + more * (layout.cpu_s - references_s);
-    layout.wall_s = references_s + more * (layout.wall_s - references_s);
+    layout.cpu_s = references.cpu_s + more * (layout.cpu_s - references.cpu_s);
+    layout.wall_s = references.wall_s + more * (layout.wall_s - references.wall_s);
     return layout;
   }
 
@@ -78,6 +81,10 @@ class Layouts {
     }
     ranks.push_back(static_cast<int>(together));
     return ranks;
+  }
+
+  Costs::References references_on(int ranks) const {
+    return costs_ == nullptr ? Costs::References() : costs_->references(ranks);
   }
 
   const Evaluator& study_;
@@ -128,7 +135,7 @@ Forecast make_forecast(Evaluator& study, const ForecastOptions& options) {
     costs.emplace(study, kinds, options.lanes, std::min(options.ranks, options.processors),
                   options.probe_s);
     forecast.measured = costs->measured();
-    forecast.references_s = costs->references_s();
+    forecast.references_s = costs->references(options.ranks).cpu_s;
   }
   const Layouts layouts(study, forecast.work, costs ? &*costs : nullptr, options.lanes);
   forecast.asked = layouts.certain(options.ranks);

@@ -1,6 +1,6 @@
 // What a file will take before it runs: evaluations, CPU and wall time for numbers of ranks, memory
-// and disk. Wall time is that of the references, which rank 0 runs one after the other, and then of
-// packs pulled by ranks (form_packs, pull_schedule.h). How ranks of one machine slow each other
+// and disk. Wall time is that of the references, side by side, and then of packs, the longest
+// first, pulled by ranks (form_packs, pull_schedule.h). How ranks of one machine slow each other
 // down is measured here, with as many at once as this machine runs of them; nodes are taken for its
 // like.
 #pragma once

@@ -10,7 +10,8 @@ struct PullEnd {
   double busy = 1.0;    // part of the ranks' time that is work
 };
 
-// Tasks in the order they are handed out, s.
-PullEnd pull(std::span<const double> tasks, int ranks);
+// Tasks in the order they are handed out, s. `service_s`: what the rank that hands them out takes
+// for each, one after the other (measured by tests/bench/dispatch.cpp).
+PullEnd pull(std::span<const double> tasks, int ranks, double service_s = 0.0);
 
 }  // namespace linkstudy::plan

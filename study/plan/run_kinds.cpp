@@ -12,11 +12,14 @@ namespace {
 constexpr std::size_t kMostLookedAt = 2000;
 
 bool takes_as_long(const RunKind& a, const RunKind& b) {
-  return a.load_case == b.load_case && a.options == b.options &&
-         same_structure(a.structure, b.structure);
+  return a.load_case == b.load_case && shares_steps(a, b);
 }
 
 }  // namespace
+
+bool shares_steps(const RunKind& a, const RunKind& b) {
+  return a.options == b.options && same_structure(a.structure, b.structure);
+}
 
 RunKinds::RunKinds(const Evaluator& evaluator, const std::vector<Point>& points) {
   std::map<std::vector<Value>, const Point*> alike;

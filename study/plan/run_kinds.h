@@ -20,6 +20,9 @@ struct RunKind {
   bool has_constant_steps() const { return options.integrator == Integrator::rk4; }
 };
 
+// Whether runs of both go side by side.
+bool shares_steps(const RunKind& a, const RunKind& b);
+
 class RunKinds {
  public:
   // Of these points, which must outlive it. The first 2000 are looked at one by one; of the others,

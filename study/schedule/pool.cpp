@@ -20,7 +20,10 @@ using std::chrono::milliseconds;
 // Tasks longer than this are never queued behind another: an unlucky one would wait for it.
 constexpr double kQueueBelowS = 10e-3;
 // Work queued in front of a rank covers this much, some polls of both sides.
-constexpr double kQueuedWorkS = 1e-3;
+constexpr double kQueuedWorkS = 8e-3;
+constexpr double kPollsOfQueue = 4.0;
+// From so many on, the work of rank 0 is a small part of all.
+constexpr int kManyRanks = 16;
 constexpr double kMostQueued = 64.0;
 constexpr milliseconds kTickInterval{100};
 // Taken in before ticks and signals are looked at again.
@@ -163,7 +166,7 @@ void Pool::feed(Run& run, int rank) {
   } else if (cancelled_) {
     run.stop(RunEnd::cancelled);
   }
-  if (watch_.is_lost(rank)) return;
+  if (!gets_work(rank)) return;
   std::size_t& given = outstanding_[static_cast<std::size_t>(rank)];
   const std::size_t depth = find_depth(run);
   while (!run.stopping && given < depth) {
@@ -177,6 +180,13 @@ void Pool::feed(Run& run, int rank) {
     else
       transport_.send(rank, Tag::task, pack_task(std::move(task)));
   }
+}
+
+bool Pool::gets_work(int rank) const {
+  if (watch_.is_lost(rank)) return false;
+  const bool has_others = watch_.lost_count() < transport_.size() - 1;
+  const bool has_time = transport_.size() < kManyRanks || load_.leaves_time();
+  return rank != 0 || !has_others || (options_.first_computes && has_time);
 }
 
 // One running task, and some queued when they are short and enough are left for every rank.
@@ -225,6 +235,8 @@ void Pool::wait(Run& run, Clock::time_point& next_tick) {
   if (Clock::now() >= next_tick) {
     if (options_.on_tick) options_.on_tick();
     watch_ranks(run);
+    load_.measure(Clock::now());
+    feed(run, 0);
     next_tick = Clock::now() + kTickInterval;
   }
   thread_.wait_for_result(find_pause());
@@ -273,11 +285,15 @@ void Pool::lose(Run& run, int rank) {
   for (int other = 0; other < transport_.size(); ++other) feed(run, other);
 }
 
-// Short against a task, so that an answered rank is not kept waiting; alone there is only the stop
-// level to look at.
+// Short against a task, or the work that is queued, so that an answered rank is not kept waiting;
+// alone there is only the stop level to look at.
 microseconds Pool::find_pause() const {
   if (is_alone()) return milliseconds(20);
-  const double seconds = std::clamp(mean_seconds_ / 50.0, 100e-6, 2e-3);
+  const bool is_queued = mean_seconds_ >= 0.0 && mean_seconds_ <= kQueueBelowS;
+  const double work_s = is_queued
+                            ? std::min(kQueuedWorkS, kMostQueued * mean_seconds_) / kPollsOfQueue
+                            : mean_seconds_ / 50.0;
+  const double seconds = std::clamp(work_s, 100e-6, 2e-3);
   return microseconds(static_cast<int>(seconds * 1e6));
 }
 

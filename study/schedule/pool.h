@@ -6,8 +6,9 @@
 //   return transport.agree_exit_code(code);       after the pool is gone
 //
 // Rank 0 computes too, in a second thread; its main thread is the only one that talks to MPI, by
-// polling and sleeping. A rank is given tasks in advance only while they are so short (below 10 ms)
-// that the way of a message counts. Results arrive in any order, each once, on the main thread.
+// polling and sleeping. Among 16 ranks or more it computes only while handing out leaves it the
+// time (manager_load.h). A rank is given tasks in advance only while they are so short (below 10
+// ms) that the way of a message counts. Results arrive in any order, each once, on the main thread.
 //
 // Stop signals (stop_signals.h) may reach any rank; rank 0 coordinates. Level kStopFinish waits for
 // what is in flight; kStopCancel and the time cancel_at have every rank call cancel_work, and wait
@@ -28,6 +29,7 @@
 #include <vector>
 
 #include "study/schedule/compute_thread.h"
+#include "study/schedule/manager_load.h"
 #include "study/schedule/rank_watch.h"
 #include "study/schedule/stop_signals.h"
 #include "study/schedule/task.h"
@@ -43,6 +45,7 @@ struct LostRank {
 };
 
 struct PoolOptions {
+  bool first_computes = true;  // rank 0, where there are others
   // No work is handed out from then on.
   std::optional<std::chrono::steady_clock::time_point> deadline;
   // What is in flight then is cancelled.
@@ -124,6 +127,7 @@ class Pool {
   void deliver(Run& run, TaskResult result);
   void feed(Run& run, int rank);
   std::size_t find_depth(const Run& run) const;
+  bool gets_work(int rank) const;
   std::optional<std::size_t> next_task(Run& run) const;
   void answer(Run& run, TaskResult result);
   std::optional<RunEnd> find_end(const Run& run);
@@ -155,7 +159,8 @@ class Pool {
   std::vector<std::size_t> outstanding_;  // tasks given to a rank and not answered, (size)
   std::uint64_t run_number_ = 0;
   double mean_seconds_ = -1.0;  // of recent tasks, negative until the first
-  int forwarded_level_ = 0;     // highest stop level of the other ranks; on those: level passed on
+  ManagerLoad load_;
+  int forwarded_level_ = 0;  // highest stop level of the other ranks; on those: level passed on
   RankWatch watch_;
   std::vector<bool> left_;  // ranks that have said bye, (size)
   std::pair<std::uint64_t, double> beat_{0, 0.0};

@@ -74,6 +74,7 @@ StudySession::StudySession(const SessionOptions& options, Evaluator& evaluator, 
       pool_(pool),
       log_(log),
       total_(total),
+      costs_(evaluator),
       failures_(record.failure_count()),
       progress_(*find_word<ProgressMode>(options.progress),
                 most_evaluations(evaluator.input(), total), record.evaluations().size(),
@@ -85,9 +86,14 @@ void StudySession::evaluate(const std::vector<Point>& points) {
   check_failures();
   const std::vector<Point> missing = take_known(missing_of(points));
   const auto& parameters = evaluator_.parameters();
-  run_packs(form_packs(missing, parameters, simd_level().lanes, pool_.ranks()));
+  run_packs(sorted(form_packs(missing, parameters, simd_level().lanes, pool_.ranks())));
   // What failed outside the evaluations (no memory, a message over its limit) may do alone.
-  run_packs(form_packs(missing_of(missing), parameters, 1, pool_.ranks()));
+  run_packs(sorted(form_packs(missing_of(missing), parameters, 1, pool_.ranks())));
+}
+
+std::vector<std::vector<Point>> StudySession::sorted(std::vector<std::vector<Point>> packs) {
+  if (packs.size() > 1) sort_by_cost(packs, costs_);
+  return packs;
 }
 
 std::vector<Point> StudySession::missing_of(const std::vector<Point>& points) const {

@@ -4,7 +4,7 @@
 
 #include <spdlog/logger.h>
 
-#include "study/evaluate/evaluator.h"
+#include "study/evaluate/run_costs.h"
 #include "study/schedule/pool.h"
 #include "study/schedule/progress.h"
 #include "study/session/deadline.h"
@@ -50,6 +50,7 @@ class StudySession {
   std::vector<Point> missing_of(const std::vector<Point>& points) const;
   // Records those that are known, and returns the others.
   std::vector<Point> take_known(const std::vector<Point>& points);
+  std::vector<std::vector<Point>> sorted(std::vector<std::vector<Point>> packs);
   void run_packs(const std::vector<std::vector<Point>>& packs);
   void take_pack(const std::vector<Point>& pack, const TaskResult& task);
   void end_run(const RunOutcome& outcome);
@@ -65,6 +66,7 @@ class StudySession {
   Pool& pool_;
   spdlog::logger& log_;
   std::uint64_t total_;  // 0 where not known beforehand
+  RunCosts costs_;
   std::uint64_t failures_ = 0;
   bool abandoned_ = false;
   bool has_cancelled_ = false;              // of the present packs

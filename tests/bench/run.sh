@@ -6,11 +6,13 @@ set -euo pipefail
 top=$(cd "$(dirname "$0")/../.." && pwd)
 build=${1:-$top/build}
 cmake -S "$top" -B "$build" -DCMAKE_BUILD_TYPE=Release >/dev/null
-cmake --build "$build" --target bench_step_loop linkstudy -j 2 >/dev/null
+cmake --build "$build" --target bench_step_loop bench_dispatch linkstudy -j 2 >/dev/null
 grep -m1 'model name' /proc/cpuinfo || true
 grep -E '^CMAKE_CXX_FLAGS_RELEASE|^CMAKE_CXX_COMPILER:' "$build/CMakeCache.txt"
 "$build/tests/bench_step_loop"
 python3 -B "$top/tests/bench/study_against_runs.py" "$build/study/linkstudy" "$top"
+OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 \
+  mpirun -n 2 --oversubscribe --bind-to none "$build/tests/bench_dispatch"
 
 # Not grep -q, which would break the pipe.
 if cmake --build "$build" --target help | grep bench_peer_simbody >/dev/null; then

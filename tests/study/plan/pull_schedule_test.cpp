@@ -29,6 +29,15 @@ TEST(PullSchedule, Whoever_is_idle_gets_the_next) {
   EXPECT_DOUBLE_EQ(pull(std::vector<double>{}, 4).wall_s, 0.0);
 }
 
+// A manager that is never idle: task i starts at (i + 1) s. One that has time delays every task.
+TEST(PullSchedule, The_manager_serves_one_after_the_other) {
+  EXPECT_DOUBLE_EQ(pull(std::vector<double>(100, 0.5), 1000, 0.25).wall_s, 100 * 0.25 + 0.5);
+  EXPECT_DOUBLE_EQ(pull(std::vector<double>(10, 2.0), 1, 0.25).wall_s, 10 * 2.25);
+  const PullEnd end = pull(std::vector<double>(40000, 1.0), 10000, 2e-6);
+  EXPECT_GT(end.busy, 0.98);
+  EXPECT_LT(end.busy, 1.0);
+}
+
 TEST(PullSchedule, No_sooner_than_the_work_allows_and_no_later_than_its_longest_task_more) {
   std::mt19937_64 random(7);
   std::lognormal_distribution<double> seconds(0.0, 1.0);
