@@ -229,9 +229,8 @@ const ReferenceRecord& Evaluator::run_reference(std::size_t load_case) {
 
 void Evaluator::run_references() {
   std::vector<std::size_t> all;
-  for (std::size_t i = 0; i < load_case_count(); ++i) {
+  for (std::size_t i = 0; i < load_case_count(); ++i)
     if (has_reference(i)) all.push_back(i);
-  }
   run_references(all);
 }
 

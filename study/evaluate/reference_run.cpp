@@ -127,9 +127,7 @@ class ReferenceRun {
         load_case_(load_case),
         model_(read_reference(input_, load_case)),
         preparation_(prepare(model_.linkage, model_.options)) {
-    if (preparation_.cause != Cause::ok) {
-      fail(load_case, preparation_.cause, preparation_.message);
-    }
+    if (preparation_.cause != Cause::ok) fail(load_case, preparation_.cause, preparation_.message);
     const std::vector<Channel> all = list_channels(mechanism());
     Diagnostics diagnostics;
     signals_ = find_reference_signals(input_, all, diagnostics);

@@ -43,7 +43,7 @@ class Layouts {
     }
     if (wall_s > 0.0) layout.busy = work_s / (wall_s * ranks);
     const Costs::References references = references_on(ranks);
-    layout.cpu_s = references.cpu_s + work_s;
+    layout.cpu_s = references.cpu_s + work_s + kServiceS * static_cast<double>(layout.packs);
     layout.wall_s = references.wall_s + wall_s;
     return layout;
   }

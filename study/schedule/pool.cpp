@@ -236,7 +236,7 @@ void Pool::wait(Run& run, Clock::time_point& next_tick) {
     if (options_.on_tick) options_.on_tick();
     watch_ranks(run);
     load_.measure(Clock::now());
-    feed(run, 0);
+    if (outstanding_[0] == 0) feed(run, 0);  // it may have time again
     next_tick = Clock::now() + kTickInterval;
   }
   thread_.wait_for_result(find_pause());
