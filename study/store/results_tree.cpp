@@ -116,33 +116,33 @@ Table runtime_group(const std::vector<Evaluation>& evaluations) {
 
 Table provenance_group(const std::vector<ProvenanceRow>& rows,
                        const std::vector<NamedText>& texts) {
-  using Start = ProvenanceRow;
+  using Launched = ProvenanceRow;
   Table group{"provenance"};
   const auto add = [&](const char* name, const char* unit, const char* meaning, auto field) {
     group.columns.push_back({name, unit, meaning, "provenance", column_of(rows, field)});
   };
   const auto count = [](auto number) { return static_cast<std::int64_t>(number); };
-  add("event", "", "start or resume", [](const Start& r) { return r.event; });
+  add("event", "", "start or resume", [](const Launched& r) { return r.event; });
   add("time", "seconds since 1970-01-01 00:00:00", "when, UTC",
-      [](const Start& r) { return r.time_unix_s; });
+      [](const Launched& r) { return r.time_unix_s; });
   group.columns.back().format = "{:.0f}";
   add("total", "", "evaluations in the design, 0 where not known beforehand",
-      [&](const Start& r) { return count(r.total); });
-  add("ranks", "", "MPI ranks", [&](const Start& r) { return count(r.ranks); });
-  add("host", "", "computer of rank 0", [](const Start& r) { return r.host; });
+      [&](const Launched& r) { return count(r.total); });
+  add("ranks", "", "MPI ranks", [&](const Launched& r) { return count(r.ranks); });
+  add("host", "", "computer of rank 0", [](const Launched& r) { return r.host; });
   add("program_version", "", "version of linkstudy",
-      [](const Start& r) { return r.program_version; });
+      [](const Launched& r) { return r.program_version; });
   add("git_revision", "", "revision it was built from",
-      [](const Start& r) { return r.git_revision; });
+      [](const Launched& r) { return r.git_revision; });
   add("simd", "", "instruction set of the step loops on rank 0",
-      [](const Start& r) { return r.simd; });
+      [](const Launched& r) { return r.simd; });
   add("lanes", "", "evaluations that run side by side on rank 0",
-      [&](const Start& r) { return count(r.lanes); });
+      [&](const Launched& r) { return count(r.lanes); });
   add("job", "", "job of the queue that started it, empty without",
-      [](const Start& r) { return r.job; });
+      [](const Launched& r) { return r.job; });
   add("restart", "", "how often that job was requeued before",
-      [&](const Start& r) { return count(r.restart); });
-  add("command", "", "command line", [](const Start& r) { return r.command; });
+      [&](const Launched& r) { return count(r.restart); });
+  add("command", "", "command line", [](const Launched& r) { return r.command; });
   for (const NamedText& text : texts) group.attributes.push_back({text.name, text.text});
   return group;
 }
