@@ -2,17 +2,20 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <mutex>
 #include <optional>
 #include <utility>
 
 #include "core/codegen/traced.h"
+#include "core/simulation/trial_trace.h"
 
 namespace linkstudy {
 namespace {
 
 // Writing takes as long as some hundred steps a freedom take in the general loop.
 constexpr long kStepsPerFreedom = 500;
+constexpr double kStepsPerTrial = 1.5;  // by evaluations
 constexpr std::size_t kMostStructures = 64;
 
 Known known_of(double x) {
@@ -91,7 +94,8 @@ struct Structure {
 
 class Library {
  public:
-  std::shared_ptr<const WrittenStep> find(const Mechanism& m, std::span<const LaneCase> cases,
+  std::shared_ptr<const WrittenStep> find(WrittenKind kind, const Mechanism& m,
+                                          std::span<const LaneCase> cases,
                                           const std::vector<Channel>& observed, long steps,
                                           Kernels choice, int slot_numbers) {
     const std::lock_guard lock(mutex_);
@@ -101,13 +105,14 @@ class Library {
     if (!s.traceable) return nullptr;
     const WrittenStep* near = nullptr;
     for (const auto& w : s.written) {
-      if (w->slot_numbers != slot_numbers || !same_channels(w->observed, observed)) continue;
+      if (w->kind != kind || w->slot_numbers != slot_numbers) continue;
+      if (!same_channels(w->observed, observed)) continue;
       if (serves(w->known, known)) return w;
       near = w.get();
     }
     if (choice != Kernels::written && s.steps < kStepsPerFreedom * (m.nv + 1)) return nullptr;
     if (near) known = known_in_both(std::move(known), near->known);
-    return write(m, *cases[0].parameters, std::move(known), observed, slot_numbers, s);
+    return write(kind, m, *cases[0].parameters, std::move(known), observed, slot_numbers, s);
   }
 
   WrittenReport report() {
@@ -131,14 +136,16 @@ class Library {
     return structures_.front();
   }
 
-  std::shared_ptr<const WrittenStep> write(const Mechanism& m, const Parameters<double>& sizes,
+  std::shared_ptr<const WrittenStep> write(WrittenKind kind, const Mechanism& m,
+                                           const Parameters<double>& sizes,
                                            std::vector<Known> known,
                                            const std::vector<Channel>& observed, int slot_numbers,
                                            Structure& s) {
     const auto begin = std::chrono::steady_clock::now();
     std::optional<StepTrace> trace;
     try {
-      trace.emplace(trace_step(m, sizes, known, observed));
+      trace.emplace(kind == WrittenKind::trial ? trace_trial(m, sizes, known)
+                                               : trace_step(m, sizes, known, observed));
     } catch (const Untraceable& e) {
       s.traceable = false;
       ++report_.untraceable;
@@ -147,6 +154,7 @@ class Library {
     }
     std::optional<WrittenStep> step = place_code(*trace, slot_numbers);
     if (!step) return nullptr;
+    step->kind = kind;
     step->observed = observed;
     step->known = std::move(known);
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
@@ -189,7 +197,15 @@ std::shared_ptr<const WrittenStep> written_step(const Mechanism& m, std::span<co
                                                 const std::vector<Channel>& observed, long steps,
                                                 const SimdLevel& level, int slot_numbers) {
   if (!why_not_written(level).empty()) return nullptr;
-  return library().find(m, cases, observed, steps, level.kernels, slot_numbers);
+  return library().find(WrittenKind::step, m, cases, observed, steps, level.kernels, slot_numbers);
+}
+
+std::shared_ptr<const WrittenStep> written_trial(const Mechanism& m,
+                                                 std::span<const LaneCase> cases, long trials,
+                                                 const SimdLevel& level, int slot_numbers) {
+  if (!why_not_written(level).empty()) return nullptr;
+  const long steps = std::lround(kStepsPerTrial * static_cast<double>(trials));
+  return library().find(WrittenKind::trial, m, cases, {}, steps, level.kernels, slot_numbers);
 }
 
 bool is_writable(const Mechanism& m, const Channel& channel) {

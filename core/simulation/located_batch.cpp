@@ -1,0 +1,89 @@
+#include "core/simulation/located_batch.h"
+
+#include <algorithm>
+#include <deque>
+
+#include "core/base/flush_denormals.h"
+
+namespace linkstudy {
+namespace {
+
+class LocatedBatch {
+ public:
+  LocatedBatch(const Mechanism& m, const SimulationOptions& options,
+               std::span<const LaneCase> cases, const SimdLevel& level,
+               const std::function<KernelRun(std::size_t)>& start)
+      : m_(m),
+        options_(options),
+        cases_(cases),
+        start_(start),
+        // A lone case takes one lane.
+        frame_(m, cases, level, cases.size() == 1 ? 1 : level.lanes),
+        lanes_(static_cast<std::size_t>(frame_.lanes())),
+        reports_(cases.size()) {}
+
+  std::vector<LocatedReport> run() {
+    for (int i = 0; i < frame_.lanes(); ++i) fill(i);
+    while (active_ != 0) {
+      frame_.run(active_);
+      for (int i = 0; i < frame_.lanes(); ++i) {
+        if ((active_ >> i & 1u) == 0) continue;
+        Lane& lane = lanes_[static_cast<std::size_t>(i)];
+        lane.run->take_trial();
+        if (lane.run->has_ended()) fill(i);
+      }
+    }
+    return std::move(reports_);
+  }
+
+ private:
+  struct Lane {
+    std::optional<LocatedRun> run;
+    std::size_t number = 0;  // of its case
+  };
+
+  // Ends the run in a lane, and begins the next that asks for a trial.
+  void fill(int i) {
+    Lane& lane = lanes_[static_cast<std::size_t>(i)];
+    do {
+      if (lane.run) reports_[lane.number] = lane.run->finish();
+      lane.run.reset();
+      active_ &= ~(1u << i);
+      if (next_ == cases_.size()) return;
+      lane.number = next_++;
+      lane.run.emplace(m_, options_, start_(lane.number), cases_[lane.number], &frame_, i);
+      active_ |= 1u << i;
+      lane.run->start();
+    } while (lane.run->has_ended());
+  }
+
+  const Mechanism& m_;
+  const SimulationOptions& options_;
+  std::span<const LaneCase> cases_;
+  const std::function<KernelRun(std::size_t)>& start_;
+  TrialFrame frame_;
+  std::deque<Lane> lanes_;  // a run does not move
+  unsigned active_ = 0;     // lanes that ask for a trial, one bit each
+  std::size_t next_ = 0;    // case
+  std::vector<LocatedReport> reports_;
+};
+
+}  // namespace
+
+std::vector<LocatedReport> run_located(const Mechanism& m, const SimulationOptions& options,
+                                       std::span<const LaneCase> cases, const SimdLevel& level,
+                                       const std::function<KernelRun(std::size_t)>& start) {
+  const FlushDenormals flush;
+  if (options.integrator == Integrator::adaptive) {
+    return LocatedBatch(m, options, cases, level, start).run();
+  }
+  std::vector<LocatedReport> reports;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    LocatedRun run(m, options, start(i), cases[i]);
+    run.run();
+    reports.push_back(run.finish());
+  }
+  return reports;
+}
+
+}  // namespace linkstudy
