@@ -92,9 +92,8 @@ void AdaptiveIntegrator::begin_step(double latest) {
 
 StepResult AdaptiveIntegrator::step(double latest) {
   begin_step(latest);
-  for (;;) {
+  for (;;)
     if (const auto result = end_trial(attempt(h_, end_))) return *result;
-  }
 }
 
 std::optional<StepResult> AdaptiveIntegrator::end_trial(const Trial& trial) {

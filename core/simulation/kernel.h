@@ -82,7 +82,8 @@ struct KernelRun {
   const StepCode* code = nullptr;  // none: the general step loop alone
 };
 
-// Trials of adaptive steps by the general loop, on a frame of slot_numbers(lanes) a slot.
+// Trials of adaptive steps and instants inside them by the general loop, on a frame of
+// slot_numbers(lanes) a slot.
 class TrialPack {
  public:
   TrialPack() = default;
@@ -91,7 +92,14 @@ class TrialPack {
   TrialPack& operator=(const TrialPack&) = delete;
 
   virtual void set_parameters(int lane, const Parameters<double>& p) = 0;
-  virtual void run(double* frame) = 0;
+  virtual void try_steps(double* frame) = 0;
+  virtual void look_inside(double* frame) = 0;
+};
+
+struct TrialSetting {
+  TrialSlots slots;
+  const Channel* observed;  // that instants give
+  int observed_count;
 };
 
 // cases: up to as many as the kernel has lanes.
@@ -100,7 +108,8 @@ struct Kernel {
   int lanes;
   void (*run)(const Mechanism&, const KernelRun&, const LaneCase* cases, int count);
   // To be deleted by the caller.
-  TrialPack* (*make_trials)(const Mechanism&, const TrialSlots&, const LaneCase* cases, int count);
+  TrialPack* (*make_trials)(const Mechanism&, const TrialSetting&, const LaneCase* cases,
+                            int count);
 };
 
 }  // namespace linkstudy

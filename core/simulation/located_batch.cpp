@@ -1,12 +1,15 @@
 #include "core/simulation/located_batch.h"
 
 #include <algorithm>
+#include <bit>
 #include <deque>
 
 #include "core/base/flush_denormals.h"
 
 namespace linkstudy {
 namespace {
+
+constexpr long kInstantsPerTrial = 7;  // by evaluations
 
 class LocatedBatch {
  public:
@@ -25,12 +28,13 @@ class LocatedBatch {
   std::vector<LocatedReport> run() {
     for (int i = 0; i < frame_.lanes(); ++i) fill(i);
     while (active_ != 0) {
-      frame_.run(active_);
-      for (int i = 0; i < frame_.lanes(); ++i) {
-        if ((active_ >> i & 1u) == 0) continue;
-        Lane& lane = lanes_[static_cast<std::size_t>(i)];
-        lane.run->take_trial();
-        if (lane.run->has_ended()) fill(i);
+      const unsigned asked = lanes_that_want_instants();
+      if (is_worth_a_look(asked)) {
+        frame_.look_inside(asked);
+        take(asked, &LocatedRun::take_instant);
+      } else {
+        frame_.try_steps(active_);
+        take(active_ & ~asked, &LocatedRun::take_trial);
       }
     }
     return std::move(reports_);
@@ -41,6 +45,40 @@ class LocatedBatch {
     std::optional<LocatedRun> run;
     std::size_t number = 0;  // of its case
   };
+
+  LocatedRun& run_in(int lane) { return *lanes_[static_cast<std::size_t>(lane)].run; }
+
+  template <class F>
+  void for_lanes(unsigned some, F&& f) {
+    for (int i = 0; some != 0; ++i, some >>= 1)
+      if ((some & 1u) != 0) f(i);
+  }
+
+  void take(unsigned some, void (LocatedRun::*take_result)()) {
+    for_lanes(some, [&](int i) {
+      (run_in(i).*take_result)();
+      if (run_in(i).has_ended()) fill(i);
+    });
+  }
+
+  unsigned lanes_that_want_instants() {
+    unsigned asked = 0;
+    for_lanes(active_, [&](int i) {
+      if (run_in(i).wants() == LocatedRun::Wants::instant) asked |= 1u << i;
+    });
+    return asked;
+  }
+
+  // Most lanes want an instant, or those who do can soon go on, at less than what a trial without
+  // them would waste.
+  bool is_worth_a_look(unsigned asked) {
+    if (asked == 0) return false;
+    const int all = std::popcount(active_), some = std::popcount(asked);
+    if (2 * some >= all) return true;
+    long most = 0;
+    for_lanes(asked, [&](int i) { most = std::max(most, run_in(i).instants_left()); });
+    return most * (all - some) <= kInstantsPerTrial * some;
+  }
 
   // Ends the run in a lane, and begins the next that asks for a trial.
   void fill(int i) {
@@ -63,7 +101,7 @@ class LocatedBatch {
   const std::function<KernelRun(std::size_t)>& start_;
   TrialFrame frame_;
   std::deque<Lane> lanes_;  // a run does not move
-  unsigned active_ = 0;     // lanes that ask for a trial, one bit each
+  unsigned active_ = 0;     // lanes with a run, one bit each
   std::size_t next_ = 0;    // case
   std::vector<LocatedReport> reports_;
 };

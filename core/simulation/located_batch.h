@@ -1,6 +1,7 @@
 // Runs by an adaptive integrator side by side: every lane of a pack is a run of its own
 // (core/simulation/located_run.h) with a time and a step of its own, and takes the next case when
-// one has ended. A pass of the kernel makes one trial in each lane. Implicit runs go one at a time.
+// one has ended. A pass of the kernel makes one trial in each lane, or evaluates an instant of
+// each. Implicit runs go one at a time.
 #pragma once
 
 #include <functional>

@@ -22,10 +22,16 @@ bool hits(const Observers& all, long step) {
          std::any_of(all.reductions.begin(), all.reductions.end(), hit);
 }
 
-bool any_touching(const std::vector<ContactPhase>& phases) {
-  return std::any_of(phases.begin(), phases.end(),
-                     [](const ContactPhase& phase) { return phase.touching; });
-}
+// The ledger of an instant, as lanes give it.
+struct SeenLedger {
+  Energy<double> seen;
+  double in, out, initial;
+
+  const Energy<double>& energy() const { return seen; }
+  double supplied() const { return in; }
+  double dissipated() const { return out; }
+  double residual() const { return seen.kinetic + seen.potential() - initial - in + out; }
+};
 
 std::unique_ptr<AdaptiveIntegrator> make_integrator(AdaptiveProblem problem, bool is_explicit) {
   if (is_explicit) return std::make_unique<DormandPrince>(std::move(problem));
@@ -64,7 +70,8 @@ LocatedRun::LocatedRun(const Mechanism& m, const SimulationOptions& options,
       end_(m.contacts.size()),
       quarters_(frame != nullptr ? 3 * m.contacts.size() : 0),
       before_(m.contacts.size()),
-      after_(m.contacts.size()) {
+      after_(m.contacts.size()),
+      samples_(frame != nullptr ? frame->observed().all().size() : 0) {
   if (frame == nullptr) return;
   explicit_ = static_cast<DormandPrince*>(integrator_.get());
   frame_->set_case(lane, c);
@@ -191,12 +198,7 @@ void LocatedRun::begin() {
   time_ = setting_.t0;
   observe_grid(0, y_.data());
   if (!cause_) integrator_->start(setting_.t0, y_.data());
-}
-
-void LocatedRun::set_memory(std::size_t i, double rate) {
-  const bool touching = phases_[i].touching;
-  w_.memory[i] = {begin_[i].depth, rate, touching ? 1.0 : 0.0, touching ? std::fabs(rate) : 0.0,
-                  touching ? 0.0 : kOpen};
+  if (frame_ != nullptr) frame_->put(lane_, TrialSlots::initial_energy, now_.initial_energy());
 }
 
 void LocatedRun::start() {
@@ -237,6 +239,7 @@ void LocatedRun::ask_for_trial() {
               numbers_in<double>(w_.memory));
   frame_->put(lane_, slots.y, n, explicit_->y());
   frame_->put(lane_, slots.slope, n, slopes);
+  wants_ = Wants::trial;
 }
 
 void LocatedRun::take_trial() {
@@ -253,24 +256,39 @@ void LocatedRun::take_trial() {
   if (!result) return frame_->put(lane_, TrialSlots::h, explicit_->trial_length());
   if (*result != StepResult::accepted) return fail(Cause::diverged);
   end_step();
-  if (!has_ended() && begin_step()) ask_for_trial();
 }
 
 // Of a step that was accepted.
 void LocatedRun::end_step() {
   drift_.reset();
-  const auto event = find_event();
-  const double reached = event ? event->t : integrator_->t();
-  observe_until(reached);
-  if (cause_) return;
-  follow_contacts(reached, !event);
+  event_ = find_event();
+  reached_ = event_ ? event_->t : integrator_->t();
+  go_on();
+}
+
+// To the next instant that lanes give, or the next trial.
+void LocatedRun::go_on() {
+  while (next_instant()) {
+    if (is_given_in_lanes()) return ask_for_instant();
+    value_at(time_of(step_), at_.data());
+    settle(time_of(step_), at_.data());
+    observe_grid(step_, at_.data());
+    if (cause_) return;
+  }
+  close_step();
+  if (frame_ != nullptr && !has_ended() && begin_step()) ask_for_trial();
+}
+
+void LocatedRun::close_step() {
+  follow_contacts();
   count_step();
-  if (event) {
-    restart_at(*event);
+  if (event_) {
+    restart_at(*event_);
   } else {
     accept();
   }
   check_drift();
+  is_over_ = step_ >= setting_.count;
 }
 
 // Where the next step ends at the latest.
@@ -286,33 +304,54 @@ double LocatedRun::choose_end() {
   return std::min({end_time(), corner_, t + std::max(way, least)});
 }
 
-void LocatedRun::read_nearness(int slot, std::vector<Nearness>& contacts) const {
-  for (Nearness& one : contacts) {
-    one.depth = frame_->get(lane_, slot++);
-    one.rate = frame_->get(lane_, slot++);
-  }
-}
-
-std::optional<ContactEvent> LocatedRun::find_event() {
-  if (phases_.empty()) return std::nullopt;
-  if (frame_ != nullptr) {
-    read_nearness(frame_->slots().near, end_);
-    read_nearness(frame_->slots().quarters, quarters_);
-  } else {
-    look_at(with_motions(integrator_->t(), integrator_->y()), end_.data());
-  }
-  return events_.find(integrator_->t_old(), integrator_->t(), begin_, end_, phases_, quarters_);
-}
-
-// Instants of the grid that the step has passed.
-void LocatedRun::observe_until(double reached) {
-  while (!cause_ && step_ < setting_.count && time_of(step_ + 1) <= reached) {
+// Of the grid, that the step has passed and at which something looks.
+bool LocatedRun::next_instant() {
+  while (step_ < setting_.count && time_of(step_ + 1) <= reached_) {
     ++step_;
-    if (step_ % setting_.energy_stride != 0 && !hits(*case_.observers, step_)) continue;
-    value_at(time_of(step_), at_.data());
-    settle(time_of(step_), at_.data());
-    observe_grid(step_, at_.data());
+    if (step_ % setting_.energy_stride == 0 || hits(*case_.observers, step_)) return true;
   }
+  return false;
+}
+
+long LocatedRun::instants_left() const {
+  return std::lround(std::ceil((reached_ - time_of(step_)) / setting_.h)) + 1;
+}
+
+bool LocatedRun::is_given_in_lanes() const {
+  return frame_ != nullptr && !frame_->observed().leaves_out(step_);
+}
+
+void LocatedRun::ask_for_instant() {
+  const double t = time_of(step_);
+  frame_->put(lane_, TrialSlots::instant, t);
+  frame_->put(lane_, TrialSlots::part,
+              (t - integrator_->t_old()) / (integrator_->t() - integrator_->t_old()));
+  wants_ = Wants::instant;
+}
+
+void LocatedRun::take_instant() {
+  const TrialSlots& slots = frame_->slots();
+  const bool is_output = step_ % setting_.energy_stride == 0;
+  if (is_output) begun_in_interval_ = 0;
+  ++observed_;
+  poll(time_of(step_), 1);
+  if (!(frame_->get(lane_, slots.moves) > 0.5)) fail(Cause::diverged);
+  if (!checks_.is_closed(frame_->get(lane_, slots.instant_drift), setting_.drift_limit)) {
+    fail(Cause::constraint_drift);
+  }
+  checks_.see_rank(true, frame_->get(lane_, slots.rank));
+  if (is_output) {
+    std::array<double, TrialSlots::kEnergies> e{};
+    frame_->get(lane_, slots.energies, TrialSlots::kEnergies, e.data());
+    const SeenLedger ledger{{e[0], e[1], e[2]}, e[3], e[4], now_.initial_energy()};
+    if (!checks_.balances(ledger)) fail(Cause::energy_blowup);
+  }
+  if (cause_) return;
+  frame_->get(lane_, slots.samples, static_cast<int>(samples_.size()), samples_.data());
+  observers_.observe(step_, [this](int observer, std::size_t i, const Channel&) {
+    return samples_[static_cast<std::size_t>(at(frame_->observed().first(), observer)) + i];
+  });
+  go_on();
 }
 
 void LocatedRun::observe_grid(long step, const double* y) {
@@ -329,43 +368,6 @@ void LocatedRun::observe_grid(long step, const double* y) {
   if (step % setting_.energy_stride == 0 && !checks_.balances(now_)) fail(Cause::energy_blowup);
   if (!cause_)
     observers_.observe(step, [this](int, std::size_t, const Channel& c) { return now_.sample(c); });
-}
-
-// By quarters of the step: a cubic each.
-void LocatedRun::follow_contacts(double reached, bool is_whole) {
-  if (case_.contacts == nullptr || !any_touching(phases_)) return;
-  before_ = begin_;
-  const double begin = integrator_->t_old(), quarter = 0.25 * (reached - begin);
-  const auto count = static_cast<std::ptrdiff_t>(phases_.size());
-  double t = begin;
-  for (int part = 1; part <= 4; ++part) {
-    const double next = part == 4 ? reached : begin + part * quarter;
-    if (!is_whole || frame_ == nullptr) {
-      look_inside(next, after_.data());
-    } else {
-      const auto from = part == 4 ? end_.begin() : quarters_.begin() + (part - 1) * count;
-      std::copy_n(from, count, after_.begin());
-    }
-    for (std::size_t i = 0; i < phases_.size(); ++i) {
-      if (!phases_[i].touching) continue;
-      case_.contacts->follow(static_cast<int>(i), {t, next, before_[i], after_[i]},
-                             w_.memory[i].approach);
-    }
-    before_.swap(after_);
-    t = next;
-  }
-}
-
-void LocatedRun::count_step() {
-  const double length = integrator_->t() - integrator_->t_old();
-  bool touching = false;
-  for (std::size_t i = 0; i < phases_.size(); ++i) {
-    if (!phases_[i].touching) continue;
-    touching = true;
-    touches_[i].steps += 1.0;
-    if (phases_[i].fresh) touches_[i].first_step = length;
-  }
-  if (!touching) free_step_ = length;
 }
 
 void LocatedRun::accept() {
@@ -403,47 +405,6 @@ void LocatedRun::accept_settled() {
   read_nearness(slots.settled_near, end_);
   drift_ = frame_->get(lane_, slots.settled_drift);
   explicit_->replace(y_.data(), slopes_.data());
-}
-
-void LocatedRun::restart_at(const ContactEvent& event) {
-  const auto i = static_cast<std::size_t>(event.contact);
-  value_at(event.t, y_.data());
-  time_ = event.t;
-  settle(time_, y_.data());
-  look_at(y_.data(), begin_.data());
-  for (ContactPhase& phase : phases_) phase.fresh &= event.t == integrator_->t_old();
-  phases_[i] = {!phases_[i].touching, true};
-  set_memory(i, begin_[i].rate);
-  if (phases_[i].touching) {
-    begin_contact(i);
-  } else {
-    end_contact(i);
-  }
-  integrator_->start(event.t, y_.data(), first_step(i));
-}
-
-void LocatedRun::begin_contact(std::size_t i) {
-  log_.begun += 1.0;
-  touches_[i].steps = 0.0;
-  ContactRecorder* recorder = case_.contacts;
-  if (recorder != nullptr) recorder->begin(static_cast<int>(i), time_, begin_[i].rate);
-  if (++begun_in_interval_ > kMostContacts) fail(Cause::contact_budget);
-}
-
-void LocatedRun::end_contact(std::size_t i) {
-  log_.least_steps = std::min(log_.least_steps, touches_[i].steps);
-  ContactRecorder* recorder = case_.contacts;
-  if (recorder != nullptr) recorder->end(static_cast<int>(i), time_, -begin_[i].rate);
-  const ContactStructure& contact = m_.contacts[i];
-  const bool resets =
-      contact.z >= 0 && at(m_.clearances, contact.clearance).free_bristle == FreeBristle::reset;
-  if (resets) y_[static_cast<std::size_t>(m_.nq + m_.nv + contact.z)] = 0.0;
-}
-
-// 0 where the integrator must find it.
-double LocatedRun::first_step(std::size_t i) const {
-  if (phases_[i].touching) return touches_[i].first_step;
-  return any_touching(phases_) ? integrator_->next_step() : free_step_;
 }
 
 // Contacts have been looked at already; cut rows may not have.

@@ -1,8 +1,11 @@
-// One run by an adaptive integrator, with the begin and the end of every contact located. Trials of
-// explicit steps are made beside those of other runs, in a lane of a frame
-// (core/simulation/trial_frame.h); all else is this run's alone. Observers see the instants of the
-// step grid, t0 + k h, by the dense output of the integrator and an evaluation of the equations of
-// motion there; only those that some observer or the energy ledger asks for.
+// One run by an adaptive integrator, with the begin and the end of every contact located. Observers
+// see the instants of the step grid, t0 + k h, by the dense output of the integrator and an
+// evaluation of the equations of motion there; only those that some observer or the energy ledger
+// asks for.
+//
+// Trials of explicit steps, and instants inside them where those look who often do, are made beside
+// those of other runs, in a lane of a frame (core/simulation/trial_frame.h); all else is this run's
+// alone, as is all of an implicit one.
 //
 // Between two events each contact keeps to its phase: one that is open has no force even where
 // rounding puts it inside, one that touches has the approach speed of its beginning, raised where
@@ -41,17 +44,23 @@ struct LocatedReport {
 
 class LocatedRun {
  public:
+  enum class Wants { trial, instant };
+
   // frame: of explicit runs, with the case in its lane. All must outlive it.
   LocatedRun(const Mechanism& m, const SimulationOptions& options, const KernelRun& setting,
              const LaneCase& c, TrialFrame* frame = nullptr, int lane = 0);
   LocatedRun(const LocatedRun&) = delete;
   LocatedRun& operator=(const LocatedRun&) = delete;
 
-  // Of an explicit run: its first trial is asked for, or it has ended.
+  // Of an explicit run: the first trial is asked for, or it has ended.
   void start();
-  // Goes on from a trial, to the next one asked for or to the end.
+  // Goes on from what it has asked for, to what it asks for next or to the end.
   void take_trial();
-  bool has_ended() const { return cause_ || step_ >= setting_.count; }
+  void take_instant();
+  Wants wants() const { return wants_; }
+  // At most, before the next trial.
+  long instants_left() const;
+  bool has_ended() const { return cause_ || is_over_; }
 
   // The whole of an implicit one.
   void run();
@@ -89,10 +98,14 @@ class LocatedRun {
   void read_nearness(int slot, std::vector<Nearness>& contacts) const;
   void advance();
   void end_step();
+  void go_on();
+  void close_step();
   std::optional<ContactEvent> find_event();
-  void observe_until(double reached);
+  bool next_instant();
+  bool is_given_in_lanes() const;
+  void ask_for_instant();
   void observe_grid(long step, const double* y);
-  void follow_contacts(double reached, bool is_whole);
+  void follow_contacts();
   void count_step();
   void accept();
   void accept_settled();
@@ -133,8 +146,13 @@ class LocatedRun {
   std::vector<Nearness> begin_, end_;     // of the step
   std::vector<Nearness> quarters_;        // of explicit steps, three times all contacts
   std::vector<Nearness> before_, after_;  // of a part of it
+  std::optional<ContactEvent> event_;     // in the step
+  double reached_ = 0.0;                  // the time it is followed to
   std::optional<double> drift_;           // at y_, where it is known
+  std::vector<double> samples_;           // of channels that lanes give
+  Wants wants_ = Wants::trial;
   std::optional<Cause> cause_;
+  bool is_over_ = false;
   long step_ = 0;  // of the grid
   long since_poll_ = 0, observed_ = 0, looks_ = 0;
   long begun_in_interval_ = 0;

@@ -74,7 +74,9 @@ class RunChecks {
                            now.dissipated());
   }
 
-  Mask balances(Instant<Real>& now) {
+  // now: Instant, or what has the same ledger.
+  template <class Ledger>
+  Mask balances(Ledger& now) {
     const Energy<Real> e = now.energy();
     const Real residual = abs(now.residual());
     const Real supplied = abs(now.supplied() - initial_supplied_);

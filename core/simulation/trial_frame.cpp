@@ -10,9 +10,10 @@
 namespace linkstudy {
 namespace {
 
-constexpr long kQuestionEvery = 256;  // trials
-constexpr long kTrial = 64;           // runs before code may be left
-constexpr long kMostFailures = 4;     // one in so many is too much
+constexpr long kFirstQuestion = 2048;  // evaluations of the equations of motion
+constexpr long kEvaluationsPerTrial = 6;
+constexpr long kTrial = 64;        // runs before code may be left
+constexpr long kMostFailures = 4;  // one in so many is too much
 
 int parameter_count(const Parameters<double>& p) {
   std::size_t count = 0;
@@ -29,12 +30,15 @@ TrialFrame::TrialFrame(const Mechanism& m, std::span<const LaneCase> cases, cons
       level_(level),
       lanes_(lanes),
       width_(slot_numbers(lanes)),
-      slots_(m, parameter_count(*cases[0].parameters)),
+      observed_(m, *cases[0].observers),
+      slots_(m, parameter_count(*cases[0].parameters), static_cast<int>(observed_.all().size())),
       frame_(slots_.count * width_),
       numbers_(frame_.data()),
       general_(find_kernel(level.isa, lanes)
-                   .make_trials(m, slots_, cases.data(), static_cast<int>(cases.size()))),
-      next_question_(level.kernels == Kernels::written ? 0 : kQuestionEvery) {
+                   .make_trials(
+                       m,
+                       {slots_, observed_.all().data(), static_cast<int>(observed_.all().size())},
+                       cases.data(), static_cast<int>(cases.size()))) {
   for (int i = 0; i < width_; ++i) {
     set_case(i, cases[std::min(static_cast<std::size_t>(i), cases.size() - 1)]);
   }
@@ -51,23 +55,34 @@ void TrialFrame::set_case(int lane, const LaneCase& c) {
   put(lane, slots_.y, state_size(m_), c.y);
 }
 
-void TrialFrame::run(unsigned active) {
-  if (untold_ >= next_question_) ask_for_code();
-  untold_ += std::popcount(active);
-  if (written_ && !left_) {
-    written_->code->run(numbers_);
-    ++tried_;
-    if (is_fine(active)) return;
-    ++failed_;
-    left_ = tried_ >= kTrial && kMostFailures * failed_ > tried_;
-  }
-  general_->run(numbers_);
+void TrialFrame::try_steps(unsigned counting) {
+  count_evaluations(kEvaluationsPerTrial * std::popcount(counting));
+  if (written_ && run(*written_->code, slots_.fine, counting)) return;
+  general_->try_steps(numbers_);
 }
 
-void TrialFrame::ask_for_code() {
-  if (!written_) use(written_trial(m_, cases_, untold_, level_, width_));
+void TrialFrame::look_inside(unsigned counting) {
+  count_evaluations(std::popcount(counting));
+  if (written_ && run(*written_->inside, slots_.instant_fine, counting)) return;
+  general_->look_inside(numbers_);
+}
+
+bool TrialFrame::run(codegen::FrameCode& code, int fine, unsigned counting) {
+  if (left_) return false;
+  code.run(numbers_);
+  ++tried_;
+  if (is_fine(fine, counting)) return true;
+  ++failed_;
+  left_ = tried_ >= kTrial && kMostFailures * failed_ > tried_;
+  return false;
+}
+
+void TrialFrame::count_evaluations(long count) {
+  untold_ += count;
+  if (written_ || untold_ < next_question_) return;
+  use(written_trial(m_, cases_, observed_.all(), untold_, level_, width_));
   untold_ = 0;
-  next_question_ = kQuestionEvery;
+  next_question_ = std::max(kFirstQuestion, 2 * next_question_);
 }
 
 void TrialFrame::use(std::shared_ptr<const WrittenStep> written) {
@@ -82,10 +97,10 @@ void TrialFrame::use(std::shared_ptr<const WrittenStep> written) {
   written_ = std::move(written);
 }
 
-bool TrialFrame::is_fine(unsigned active) const {
+bool TrialFrame::is_fine(int slot, unsigned counting) const {
   for (int i = 0; i < lanes_; ++i) {
-    const bool is_true = std::bit_cast<std::uint64_t>(get(i, slots_.fine)) != 0;
-    if (!is_true && (active >> i & 1u) != 0) return false;
+    const bool is_true = std::bit_cast<std::uint64_t>(get(i, slot)) != 0;
+    if (!is_true && (counting >> i & 1u) != 0) return false;
   }
   return true;
 }

@@ -1,5 +1,6 @@
-// The frame on which a pack of adaptive runs has its trials made: by the general loop, and once
-// enough of them have been made by code written for the structure, with the same bits.
+// The frame on which a pack of adaptive runs has its trials made and instants inside its steps
+// evaluated: by the general loop, and once enough of them have been made by code written for the
+// structure, with the same bits.
 #pragma once
 
 #include <memory>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "core/simulation/kernel.h"
+#include "core/simulation/observed_channels.h"
 #include "core/simulation/written_steps.h"
 
 namespace linkstudy {
@@ -20,6 +22,7 @@ class TrialFrame {
 
   int lanes() const { return lanes_; }
   const TrialSlots& slots() const { return slots_; }
+  const ObservedChannels& observed() const { return observed_; }
   void set_case(int lane, const LaneCase& c);
 
   double get(int lane, int slot) const { return numbers()[slot * width_ + lane]; }
@@ -33,26 +36,31 @@ class TrialFrame {
     for (int k = 0; k < count; ++k) to[k * width_] = from[k];
   }
 
-  // A trial in each lane; `active`: those that ask for one, a bit each.
-  void run(unsigned active);
+  // A trial in each lane, the last one again where none is asked for; an instant in each. Of the
+  // lanes in `counting`, one bit each, all is right.
+  void try_steps(unsigned counting);
+  void look_inside(unsigned counting);
 
  private:
   double* numbers() const { return numbers_; }
   void use(std::shared_ptr<const WrittenStep> written);
-  void ask_for_code();
-  bool is_fine(unsigned active) const;
+  // Asks for code now and then, until there is some.
+  void count_evaluations(long count);
+  bool run(codegen::FrameCode& code, int fine, unsigned counting);
+  bool is_fine(int slot, unsigned counting) const;
 
   const Mechanism& m_;
   std::span<const LaneCase> cases_;
   SimdLevel level_;
   int lanes_, width_;
+  ObservedChannels observed_;
   TrialSlots slots_;
   codegen::FrameNumbers frame_;
   double* numbers_;
   std::unique_ptr<TrialPack> general_;
   std::shared_ptr<const WrittenStep> written_;
-  long untold_ = 0, next_question_;  // trials since the last question for code
-  long tried_ = 0, failed_ = 0;      // runs of code
+  long untold_ = 0, next_question_ = 0;  // evaluations since the last question for code
+  long tried_ = 0, failed_ = 0;          // runs of code
   bool left_ = false;
 };
 

@@ -58,6 +58,9 @@ class TrialStep {
     f(s.settled_drift, &settled_drift_, 1);
   }
 
+  // The largest over what is allowed.
+  const Real& error() const { return error_; }
+
   void advance() {
     method_.advance(t_, h_, [this](Real t, Real* y, Real* slope) {
       impose_motions(m_, p_, t, y, y + m_.nq);

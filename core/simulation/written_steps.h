@@ -31,6 +31,7 @@ struct WrittenStep {
   int frame_slots = 0;
   std::vector<std::unique_ptr<codegen::WrittenCode>> pages;
   std::unique_ptr<codegen::FrameCode> code;
+  std::unique_ptr<codegen::FrameCode> inside;  // of trials: instants inside steps
 };
 
 // What has been written in this process.
@@ -53,10 +54,13 @@ std::shared_ptr<const WrittenStep> written_step(const Mechanism& m, std::span<co
                                                 const std::vector<Channel>& observed, long steps,
                                                 const SimdLevel& level, int slot_numbers);
 
-// The same of a trial, where so many have been made since the last question.
+// The same of trials and instants inside steps, where the equations of motion have been evaluated
+// so often since the last question.
 std::shared_ptr<const WrittenStep> written_trial(const Mechanism& m,
-                                                 std::span<const LaneCase> cases, long trials,
-                                                 const SimdLevel& level, int slot_numbers);
+                                                 std::span<const LaneCase> cases,
+                                                 const std::vector<Channel>& observed,
+                                                 long evaluations, const SimdLevel& level,
+                                                 int slot_numbers);
 
 // False of channels that are fitted lane by lane: reactions shared in loops.
 bool is_writable(const Mechanism& m, const Channel& channel);
