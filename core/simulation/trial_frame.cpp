@@ -38,7 +38,8 @@ TrialFrame::TrialFrame(const Mechanism& m, std::span<const LaneCase> cases, cons
                    .make_trials(
                        m,
                        {slots_, observed_.all().data(), static_cast<int>(observed_.all().size())},
-                       cases.data(), static_cast<int>(cases.size()))) {
+                       cases.data(), static_cast<int>(cases.size()))),
+      may_be_written_(why_not_written(level).empty()) {
   for (int i = 0; i < width_; ++i) {
     set_case(i, cases[std::min(static_cast<std::size_t>(i), cases.size() - 1)]);
   }
@@ -79,7 +80,7 @@ bool TrialFrame::run(codegen::FrameCode& code, int fine, unsigned counting) {
 
 void TrialFrame::count_evaluations(long count) {
   untold_ += count;
-  if (written_ || untold_ < next_question_) return;
+  if (written_ || !may_be_written_ || untold_ < next_question_) return;
   use(written_trial(m_, cases_, observed_.all(), untold_, level_, width_));
   untold_ = 0;
   next_question_ = std::max(kFirstQuestion, 2 * next_question_);

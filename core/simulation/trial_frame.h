@@ -61,7 +61,7 @@ class TrialFrame {
   std::shared_ptr<const WrittenStep> written_;
   long untold_ = 0, next_question_ = 0;  // evaluations since the last question for code
   long tried_ = 0, failed_ = 0;          // runs of code
-  bool left_ = false;
+  bool may_be_written_, left_ = false;
 };
 
 }  // namespace linkstudy
