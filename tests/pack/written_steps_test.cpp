@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "core/simulation/prepare.h"
+#include "core/simulation/simulate.h"
 #include "tests/mechanisms/repeating_loads.h"
 #include "tests/pack/shipped_models.h"
 #include "tests/support/same_bits.h"
