@@ -1,5 +1,6 @@
 #include "core/dynamics/spectrum.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>

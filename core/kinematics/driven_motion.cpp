@@ -1,5 +1,6 @@
 #include "core/kinematics/driven_motion.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 
 #include "core/kinematics/three_turns.h"

@@ -1,5 +1,6 @@
 #include "core/kinematics/loop_equations.h"
 
+#include <Eigen/Geometry>
 #include <bit>
 
 #include "core/kinematics/closure_jacobian.h"

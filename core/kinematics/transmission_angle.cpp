@@ -1,5 +1,6 @@
 #include "core/kinematics/transmission_angle.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 

@@ -18,7 +18,11 @@ bool all_finite(const std::vector<double>& y) {
 }  // namespace
 
 AdaptiveIntegrator::AdaptiveIntegrator(AdaptiveProblem problem)
-    : problem_(std::move(problem)), y_(problem_.absolute.size()), end_(problem_.absolute.size()) {}
+    : problem_(std::move(problem)),
+      y_(problem_.absolute.size()),
+      end_(y_.size()),
+      ahead_(y_.size()),
+      later_(y_.size()) {}
 
 void AdaptiveIntegrator::evaluate(double t, const double* y, double* dy) {
   ++evaluations_;
@@ -50,7 +54,6 @@ void AdaptiveIntegrator::value_at(double time, double* out) {
 // over it let expect (Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, II.4).
 double AdaptiveIntegrator::guess_step() {
   const double* f = slopes();
-  State ahead(y_.size()), later(y_.size());
   double size = 0.0, rate = 0.0, bend = 0.0;
   const auto scale = [&](std::size_t i) {
     return problem_.absolute[i] + problem_.relative * std::fabs(y_[i]);
@@ -60,10 +63,10 @@ double AdaptiveIntegrator::guess_step() {
     rate = std::max(rate, std::fabs(f[i]) / scale(i));
   }
   const double euler = size > 1e-5 && rate > 1e-5 ? kFirstPart * size / rate : 1e-6;
-  for (std::size_t i = 0; i < y_.size(); ++i) ahead[i] = y_[i] + euler * f[i];
-  evaluate(t_ + euler, ahead.data(), later.data());
+  for (std::size_t i = 0; i < y_.size(); ++i) ahead_[i] = y_[i] + euler * f[i];
+  evaluate(t_ + euler, ahead_.data(), later_.data());
   for (std::size_t i = 0; i < y_.size(); ++i) {
-    bend = std::max(bend, std::fabs(later[i] - f[i]) / scale(i) / euler);
+    bend = std::max(bend, std::fabs(later_[i] - f[i]) / scale(i) / euler);
   }
   const double fastest = std::max(rate, bend);
   if (!std::isfinite(fastest)) return euler;
@@ -80,27 +83,33 @@ double AdaptiveIntegrator::clip(double h, double latest) const {
   return h > 0.5 * left ? 0.5 * left : h;
 }
 
+void AdaptiveIntegrator::begin_step(double latest) {
+  latest_ = latest;
+  proposed_ = next_;
+  h_ = clip(next_, latest);
+  first_ = true;
+}
+
 StepResult AdaptiveIntegrator::step(double latest) {
-  const double shortest = kLeastStep * std::max(std::fabs(t_), std::fabs(latest));
-  const double proposed = next_;
-  double h = clip(next_, latest);
-  const bool clipped = h < proposed;
-  bool first = true;
-  do {
-    const bool last = h == latest - t_;
-    const Trial trial = attempt(h, end_);
-    if (trial.accepted && all_finite(end_)) {
-      t_old_ = t_;
-      t_ = last ? latest : t_ + h;
-      y_.swap(end_);
-      next_ = first && clipped ? std::max(trial.next, proposed) : trial.next;
-      ++steps_;
-      return StepResult::accepted;
-    }
-    ++rejected_;
-    h = std::min(trial.next, 0.9 * h);
-    first = false;
-  } while (h >= shortest);
+  begin_step(latest);
+  for (;;)
+    if (const auto result = end_trial(attempt(h_, end_))) return *result;
+}
+
+std::optional<StepResult> AdaptiveIntegrator::end_trial(const Trial& trial) {
+  if (trial.accepted && all_finite(end_)) {
+    const bool clipped = first_ && h_ < proposed_;
+    t_old_ = t_;
+    t_ = h_ == latest_ - t_ ? latest_ : t_ + h_;
+    y_.swap(end_);
+    next_ = clipped ? std::max(trial.next, proposed_) : trial.next;
+    ++steps_;
+    return StepResult::accepted;
+  }
+  ++rejected_;
+  h_ = std::min(trial.next, 0.9 * h_);
+  first_ = false;
+  if (h_ >= kLeastStep * std::max(std::fabs(t_), std::fabs(latest_))) return std::nullopt;
   return all_finite(end_) ? StepResult::too_small : StepResult::not_finite;
 }
 

@@ -1,7 +1,7 @@
 // Initial value problems y' = f(t, y) by steps whose length follows from their error, with the
 // solution between the ends of the last step:
 //   dormand_prince  explicit, order 5(4), dense output of order 4; 6 evaluations a step
-//                   (Boost.odeint)
+//                   (dormand_prince.h)
 //   radau           implicit (Radau IIA, three stages), order 5(3), dense output of order 3,
 //                   stiffly accurate; 3 evaluations an iteration of Newton, and where the
 //                   derivative is not known two a column of a new Jacobian (radau.cpp)
@@ -13,6 +13,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace linkstudy {
@@ -53,6 +54,9 @@ class AdaptiveIntegrator {
   void start(double t, const double* y, double h = 0.0);
   // One accepted step that does not pass `latest`; exactly there when it would.
   StepResult step(double latest);
+  // The same begun, for methods whose trials are made elsewhere: their lengths.
+  void begin_step(double latest);
+  double trial_length() const { return h_; }
   // The state at the end of the last step was changed a little by the caller, or f was.
   void replace(const double* y);
 
@@ -75,6 +79,10 @@ class AdaptiveIntegrator {
     bool accepted;
     double next;  // the length to try next
   };
+  // Of a step that has begun; none: to be tried again. trial_end: what the trial has reached.
+  std::optional<StepResult> end_trial(const Trial& trial);
+  State& trial_end() { return end_; }
+  void count_evaluations(long count) { evaluations_ += count; }
 
  private:
   // f(t(), y()), kept until it is forgotten or a step is accepted.
@@ -93,6 +101,10 @@ class AdaptiveIntegrator {
   double t_old_ = 0.0, t_ = 0.0;
   double next_ = 0.0;
   State y_, end_;
+  double h_ = 0.0, latest_ = 0.0;  // of the step that has begun
+  double proposed_ = 0.0;          // its length, had it no latest end
+  bool first_ = true;              // trial of the step
+  State ahead_, later_;            // scratch
   long steps_ = 0, rejected_ = 0, evaluations_ = 0;
 };
 

@@ -1,6 +1,7 @@
 #include "core/simulation/contact_events.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "core/numerics/bracketed_root.h"
@@ -56,27 +57,37 @@ ContactEvents::Sample ContactEvents::look(double t) {
 std::optional<ContactEvent> ContactEvents::find(double t0, double t1,
                                                 const std::vector<Nearness>& begin,
                                                 const std::vector<Nearness>& end,
-                                                const std::vector<ContactPhase>& phases) {
+                                                const std::vector<ContactPhase>& phases,
+                                                std::span<const Nearness> quarters) {
+  quarters_ = quarters;
   std::optional<ContactEvent> first;
   for (contact_ = 0; contact_ < phases.size(); ++contact_) {
     touching_ = phases[contact_].touching;
     const std::optional<double> t = first_crossing(
-        sample(t0, begin[contact_]), sample(t1, end[contact_]), phases[contact_].fresh, 0);
+        sample(t0, begin[contact_]), sample(t1, end[contact_]), phases[contact_].fresh, 1);
     if (t && (!first || *t < first->t)) first = ContactEvent{static_cast<int>(contact_), *t};
   }
   return first;
 }
 
 std::optional<double> ContactEvents::first_crossing(const Sample& a, const Sample& b, bool fresh,
-                                                    int level) {
+                                                    int part) {
+  const int level = std::bit_width(static_cast<unsigned>(part)) - 1;
   const Cubic<Sample> cubic(a, b);
   if (cubic.stays_below_zero(fresh)) return std::nullopt;
   if (level == kMostLevel || !(b.t > a.t)) return crossing(a, b, fresh);
-  const Sample middle = look(0.5 * (a.t + b.t));
+  const Sample middle = middle_of(a, b, part);
   const bool known = std::fabs(middle.value - cubic.middle()) <= kCubic * cubic.span();
   if (level >= kLeastLevel && known && cubic.rises_or_falls()) return crossing(a, b, fresh);
-  const auto t = first_crossing(a, middle, fresh, level + 1);
-  return t ? t : first_crossing(middle, b, false, level + 1);
+  const auto t = first_crossing(a, middle, fresh, 2 * part);
+  return t ? t : first_crossing(middle, b, false, 2 * part + 1);
+}
+
+ContactEvents::Sample ContactEvents::middle_of(const Sample& a, const Sample& b, int part) {
+  const double t = 0.5 * (a.t + b.t);
+  if (quarters_.empty() || part > 3) return look(t);
+  const std::size_t quarter = part == 1 ? 1 : part == 2 ? 0 : 2;
+  return sample(t, quarters_[quarter * seen_.size() + contact_]);
 }
 
 std::optional<double> ContactEvents::crossing(const Sample& a, const Sample& b, bool fresh) {

@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/simulation/nearness.h"
@@ -30,10 +31,12 @@ class ContactEvents {
   ContactEvents(Look look, int contacts);
 
   // The first event in t0 < t <= t1, or at t0 of a fresh contact that leaves its phase at once.
-  // begin, end: nearness of all contacts at t0 and t1.
+  // begin, end: nearness of all contacts at t0 and t1; quarters: the same at the three quarters
+  // between, or nothing.
   std::optional<ContactEvent> find(double t0, double t1, const std::vector<Nearness>& begin,
                                    const std::vector<Nearness>& end,
-                                   const std::vector<ContactPhase>& phases);
+                                   const std::vector<ContactPhase>& phases,
+                                   std::span<const Nearness> quarters = {});
 
  private:
   // Of one contact; value: what is below zero in its phase, depth or its negative while touching.
@@ -42,12 +45,15 @@ class ContactEvents {
   };
   Sample sample(double t, const Nearness& n) const;
   Sample look(double t);
-  std::optional<double> first_crossing(const Sample& a, const Sample& b, bool fresh, int level);
+  // part: 1 the step, 2 n and 2 n + 1 the halves of part n.
+  std::optional<double> first_crossing(const Sample& a, const Sample& b, bool fresh, int part);
+  Sample middle_of(const Sample& a, const Sample& b, int part);
   std::optional<double> crossing(const Sample& a, const Sample& b, bool fresh);
   double root_of_value(const Sample& a, const Sample& b);
   Sample root_of_rate(const Sample& a, const Sample& b);
 
   Look look_;
+  std::span<const Nearness> quarters_;
   std::vector<Nearness> seen_;
   std::size_t contact_ = 0;  // the one that is searched
   bool touching_ = false;

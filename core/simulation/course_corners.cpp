@@ -66,7 +66,7 @@ double CourseCorners::next(double t) const {
 }
 
 double CourseCorners::before(double corner) {
-  return corner - kSameTime * std::abs(corner);
+  return std::isinf(corner) ? corner : corner - kSameTime * std::abs(corner);
 }
 
 double CourseCorners::way_ahead(const double* q, const double* v, const double* a) const {

@@ -15,9 +15,10 @@ class CourseCorners {
 
   // The next corner of a course over time after t, or infinity.
   double next(double t) const;
-  // An instant before a corner that every course takes for one before it.
+  // An instant before a corner that every course takes for one before it; infinite ones are none.
   static double before(double corner);
 
+  bool any_over_coordinates() const { return !over_coordinates_.empty(); }
   // Time in which no coordinate with a table reaches the next of its corners, at these rates (nv)
   // and accelerations, or infinity. Corners nearer than a thousandth of the table are passed.
   double way_ahead(const double* q, const double* v, const double* a) const;

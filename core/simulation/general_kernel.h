@@ -1,9 +1,10 @@
-// The step loop for every mechanism, on packs of one instruction set.
+// The step loop and adaptive trials for every mechanism, on packs of one instruction set.
 #pragma once
 
 #include <array>
 
 #include "core/base/pack.h"
+#include "core/simulation/general_trials.h"
 #include "core/simulation/run.h"
 
 namespace linkstudy {
@@ -15,7 +16,9 @@ void run_general(const Mechanism& m, const KernelRun& setting, const LaneCase* c
 
 template <class Isa>
 constexpr std::array<Kernel, 2> general_kernels(InstructionSet isa) {
-  return {{{isa, 1, run_general<Isa, 1>}, {isa, Isa::lanes, run_general<Isa, Isa::lanes>}}};
+  return {{{isa, 1, run_general<Isa, 1>, make_general_trials<Pack<1, Isa>>},
+           {isa, Isa::lanes, run_general<Isa, Isa::lanes>,
+            make_general_trials<Pack<Isa::lanes, Isa>>}}};
 }
 
 }  // namespace linkstudy

@@ -9,6 +9,7 @@
 #include "core/simulation/cause.h"
 #include "core/simulation/observers.h"
 #include "core/simulation/step_slots.h"
+#include "core/simulation/trial_slots.h"
 
 namespace linkstudy {
 
@@ -81,11 +82,34 @@ struct KernelRun {
   const StepCode* code = nullptr;  // none: the general step loop alone
 };
 
+// Trials of adaptive steps and instants inside them by the general loop, on a frame of
+// slot_numbers(lanes) a slot.
+class TrialPack {
+ public:
+  TrialPack() = default;
+  virtual ~TrialPack();
+  TrialPack(const TrialPack&) = delete;
+  TrialPack& operator=(const TrialPack&) = delete;
+
+  virtual void set_parameters(int lane, const Parameters<double>& p) = 0;
+  virtual void try_steps(double* frame) = 0;
+  virtual void look_inside(double* frame) = 0;
+};
+
+struct TrialSetting {
+  TrialSlots slots;
+  const Channel* observed;  // that instants give
+  int observed_count;
+};
+
 // cases: up to as many as the kernel has lanes.
 struct Kernel {
   InstructionSet isa;
   int lanes;
   void (*run)(const Mechanism&, const KernelRun&, const LaneCase* cases, int count);
+  // To be deleted by the caller.
+  TrialPack* (*make_trials)(const Mechanism&, const TrialSetting&, const LaneCase* cases,
+                            int count);
 };
 
 }  // namespace linkstudy

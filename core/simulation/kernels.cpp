@@ -16,6 +16,8 @@ std::span<const Kernel> kernels_of(InstructionSet isa) {
 
 }  // namespace
 
+TrialPack::~TrialPack() = default;
+
 const Kernel& find_kernel(InstructionSet isa, int lanes) {
   for (const Kernel& k : kernels_of(isa))
     if (k.isa == isa && k.lanes == lanes) return k;

@@ -8,6 +8,7 @@
 
 #include "core/base/isa.h"
 #include "core/simulation/kernel.h"
+#include "core/simulation/observed_channels.h"
 #include "core/simulation/written_steps.h"
 
 namespace linkstudy {
@@ -27,12 +28,9 @@ class PackCode {
   const StepCode* get() const { return written_ ? &code_ : nullptr; }
 
  private:
-  void list_observed(const Mechanism& m, const Observers& form);
   void fill_frame();
 
-  std::vector<Channel> observed_;
-  std::vector<int> first_;  // by observer
-  std::vector<Sampling> beyond_;
+  ObservedChannels observed_;
   std::shared_ptr<const WrittenStep> written_;
   codegen::FrameNumbers frame_;
   StepCode code_;

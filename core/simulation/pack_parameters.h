@@ -7,20 +7,27 @@
 
 namespace linkstudy {
 
+// Those of lane i, which the lists of `packed` have room for.
+template <class Real>
+inline void set_lane_parameters(Parameters<Real>& packed, int i, const Parameters<double>& p) {
+  const auto copy = [i](Real* to, const double* from, std::size_t n) {
+    for (std::size_t k = 0; k < n; ++k) set_lane(to[k], i, from[k]);
+  };
+  copy(&packed.gravity.x, &p.gravity.x, 3);
+  for_parameter_lists(
+      [&](auto& to, const auto& from) {
+        copy(numbers_in<Real>(to), numbers_in<double>(from), number_count<double>(from));
+      },
+      packed, p);
+}
+
 template <class Real>
 inline Parameters<Real> pack_parameters(const LaneCase* cases, int count) {
   Parameters<Real> packed;
-  const auto copy = [&](int i, Real* to, const double* from, std::size_t n) {
-    for (std::size_t k = 0; k < n; ++k) set_lane(to[k], i, from[k]);
-  };
+  for_parameter_lists([](auto& to, const auto& from) { to.resize(from.size()); }, packed,
+                      *cases[0].parameters);
   for (int i = 0; i < RealTraits<Real>::lanes; ++i) {
-    const Parameters<double>& p = *cases[i < count ? i : count - 1].parameters;
-    const auto copy_list = [&](auto& to, const auto& from) {
-      to.resize(from.size());
-      copy(i, numbers_in<Real>(to), numbers_in<double>(from), number_count<double>(from));
-    };
-    copy(i, &packed.gravity.x, &p.gravity.x, 3);
-    for_parameter_lists(copy_list, packed, p);
+    set_lane_parameters(packed, i, *cases[i < count ? i : count - 1].parameters);
   }
   return packed;
 }

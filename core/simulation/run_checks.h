@@ -15,6 +15,16 @@ inline constexpr double kFastest = 1e9;       // rad/s or m/s
 inline constexpr double kEnergyFactor = 1e3;  // times the energy that entered, plus
 inline constexpr double kEnergyFloor = 1e-3;  // J/kg of the whole linkage
 
+// Of the gaps in the cut rows of w: the norm.
+template <class Real>
+inline Real drift_of(const Mechanism& m, const Workspace<Real>& w) {
+  Real square(0.0);
+  for (const int r : indices(m.cut_row_count())) {
+    square = madd(at(w.cut_rows, r).d, at(w.cut_rows, r).d, square);
+  }
+  return sqrt(square);
+}
+
 inline constexpr double kAnyRank = 1e9;  // more rows than there are
 
 template <class Real>
@@ -41,11 +51,9 @@ class RunChecks {
 
   // Of the gaps in the cut rows of w.
   Mask is_closed(const Mechanism& m, const Workspace<Real>& w, Real limit) {
-    Real square(0.0);
-    for (const int r : indices(m.cut_row_count())) {
-      square = madd(at(w.cut_rows, r).d, at(w.cut_rows, r).d, square);
-    }
-    const Real drift = sqrt(square);
+    return is_closed(drift_of(m, w), limit);
+  }
+  Mask is_closed(Real drift, Real limit) {
     drift_max_ = select(drift > drift_max_, drift, drift_max_);
     return drift <= limit;
   }
@@ -66,7 +74,9 @@ class RunChecks {
                            now.dissipated());
   }
 
-  Mask balances(Instant<Real>& now) {
+  // now: Instant, or what has the same ledger.
+  template <class Ledger>
+  Mask balances(Ledger& now) {
     const Energy<Real> e = now.energy();
     const Real residual = abs(now.residual());
     const Real supplied = abs(now.supplied() - initial_supplied_);

@@ -9,7 +9,7 @@
 #include "core/kinematics/three_turns.h"
 #include "core/simulation/contact_list.h"
 #include "core/simulation/kernels.h"
-#include "core/simulation/located_run.h"
+#include "core/simulation/located_batch.h"
 #include "core/simulation/looks.h"
 #include "core/simulation/pack_code.h"
 
@@ -102,9 +102,14 @@ class Packed {
     }
   }
 
-  // The first case, with contacts located.
-  void run_adaptive(const SimulationOptions& options, Watch& watch) {
-    store(0, run_located(m_, options, setting_of(options, watch), lanes_[0]));
+  // The same with steps of their own and contacts located; each has the time limit for itself.
+  void run_adaptive(const SimulationOptions& options, const RunLimits& limits,
+                    const SimdLevel& level) {
+    std::deque<Watch> watches;
+    const auto reports = run_located(m_, options, lanes_, level, [&](std::size_t) {
+      return setting_of(options, watches.emplace_back(Watch{limits}));
+    });
+    for (std::size_t i = 0; i < cases_.size(); ++i) store(i, reports[i]);
   }
 
  private:
@@ -225,14 +230,6 @@ void run_pack(const Mechanism& m, const SimulationOptions& options, std::span<Ba
   packed.run(options, watch, find_kernel(isa, lanes), code.get());
 }
 
-void run_each(const Mechanism& m, const SimulationOptions& options, std::span<BatchCase> cases,
-              const RunLimits& limits) {
-  for (std::size_t i = 0; i < cases.size(); ++i) {
-    Watch watch{limits};
-    Packed(m, cases.subspan(i, 1)).run_adaptive(options, watch);
-  }
-}
-
 }  // namespace
 
 bool energy_balances(const SimulationOutcome& outcome) {
@@ -267,7 +264,10 @@ void simulate_batch(const Mechanism& mechanism, const SimulationOptions& options
                     const SimdLevel& level) {
   const auto lanes = static_cast<std::size_t>(level.lanes);
   const std::span<BatchCase> all(cases);
-  if (options.integrator != Integrator::rk4) return run_each(mechanism, options, all, limits);
+  if (all.empty()) return;
+  if (options.integrator != Integrator::rk4) {
+    return Packed(mechanism, all).run_adaptive(options, limits, level);
+  }
   for (std::size_t i = 0; i < all.size(); i += lanes) {
     run_pack(mechanism, options, all.subspan(i, std::min(lanes, all.size() - i)), limits, level);
   }

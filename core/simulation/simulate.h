@@ -78,7 +78,9 @@ struct BatchCase {
 
 // Runs of one structure and one step grid, several at a time in the lanes of a pack, in the order
 // given. The outcome of a case, to the last bit, is that of `simulate`. A time limit is one for
-// each pack. Adaptive integrators take one case at a time, each with steps of its own.
+// each pack. Adaptive runs have a time and steps of their own in every lane, which takes the next
+// case when one has ended, so that any number of cases keeps all lanes at work; their time limit
+// counts from there. Stiff ones go one at a time.
 void simulate_batch(const Mechanism& mechanism, const SimulationOptions& options,
                     std::vector<BatchCase>& cases, const RunLimits& limits = {});
 

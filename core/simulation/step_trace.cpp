@@ -16,7 +16,7 @@ class StepTracer {
              codegen::Graph& graph)
       : m_(m),
         graph_(graph),
-        p_(trace_parameters(sizes, known)),
+        p_(traced_parameters(graph, sizes, known, slot_)),
         w_(make_workspace<Traced>(m)),
         checks_(m, p_),
         y_(static_cast<std::size_t>(state_size(m))),
@@ -57,32 +57,6 @@ class StepTracer {
 
  private:
   Traced input(int slot) { return Traced::from(graph_.input(slot)); }
-
-  Traced trace_parameter(Known known) {
-    const int slot = slot_++;
-    switch (known) {
-      case Known::zero:
-        return Traced(0.0);
-      case Known::one:
-        return Traced(1.0);
-      case Known::minus_one:
-        return Traced(-1.0);
-      case Known::varies:
-        break;
-    }
-    return input(slot);
-  }
-
-  Parameters<Traced> trace_parameters(const Parameters<double>& sizes,
-                                      const std::vector<Known>& known) {
-    Parameters<Traced> p;
-    for_parameter_lists([](auto& to, const auto& from) { to.resize(from.size()); }, p, sizes);
-    auto next = known.begin();
-    for_parameter_numbers<Traced>(p, [&](Traced* x, std::size_t n) {
-      for (std::size_t k = 0; k < n; ++k) x[k] = trace_parameter(*next++);
-    });
-    return p;
-  }
 
   template <class F>
   void for_state(F&& f) {

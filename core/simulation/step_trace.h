@@ -7,11 +7,9 @@
 #include "core/model/mechanism.h"
 #include "core/simulation/channels.h"
 #include "core/simulation/step_slots.h"
+#include "core/simulation/traced_parameters.h"
 
 namespace linkstudy {
-
-// What is known of a parameter in every case: 0, 1 or -1, or nothing.
-enum class Known : std::int8_t { varies, zero, one, minus_one };
 
 struct StepTrace {
   codegen::Graph graph;

@@ -7,12 +7,14 @@
 #include <utility>
 
 #include "core/codegen/traced.h"
+#include "core/simulation/trial_trace.h"
 
 namespace linkstudy {
 namespace {
 
 // Writing takes as long as some hundred steps a freedom take in the general loop.
 constexpr long kStepsPerFreedom = 500;
+constexpr long kEvaluationsPerStep = 4;
 constexpr std::size_t kMostStructures = 64;
 
 Known known_of(double x) {
@@ -57,27 +59,57 @@ std::vector<Known> known_in_both(std::vector<Known> a, const std::vector<Known>&
   return a;
 }
 
-// None where the machine refuses executable memory.
-std::optional<WrittenStep> place_code(const StepTrace& trace, int slot_numbers) {
-  WrittenStep step;
-  step.slot_numbers = slot_numbers;
-  step.slots = trace.slots;
+// Code of a trace on the frame of `step`, whose first free slot is `constants`; none where the
+// machine refuses executable memory.
+std::unique_ptr<codegen::FrameCode> place_code(const StepTrace& trace, int constants,
+                                               WrittenStep& step) {
+  codegen::WrittenCode::Function narrow = nullptr, wide = nullptr;
+  std::vector<codegen::SlotValue> values;
   for (const InstructionSet isa : {InstructionSet::avx2, InstructionSet::avx512}) {
-    if (native_lanes(isa) > slot_numbers) continue;
+    if (native_lanes(isa) > step.slot_numbers) continue;
     const codegen::Program program =
-        codegen::allocate(trace.graph, trace.slots.end, vector_registers(isa));
-    auto page = codegen::WrittenCode::place(codegen::assemble(program, isa, slot_numbers));
-    if (!page) return std::nullopt;
+        codegen::allocate(trace.graph, constants, vector_registers(isa));
+    auto page = codegen::WrittenCode::place(codegen::assemble(program, isa, step.slot_numbers));
+    if (!page) return nullptr;
+    (isa == InstructionSet::avx2 ? narrow : wide) = page->function();
     step.pages.push_back(std::move(page));
-    step.constants = program.constants;
     step.frame_slots = std::max(step.frame_slots, program.slots);
+    values = program.constants;
   }
-  const bool is_wide = step.pages.size() > 1;
-  step.code = std::make_unique<codegen::FrameCode>(
-      codegen::FrameCode::Frame{slot_numbers, step.frame_slots,
-                                step.slots.end + static_cast<int>(step.constants.size()),
-                                step.slots.fine},
-      step.pages.front()->function(), is_wide ? step.pages.back()->function() : nullptr);
+  step.constants.insert(step.constants.end(), values.begin(), values.end());
+  const codegen::FrameCode::Frame frame{step.slot_numbers, step.frame_slots,
+                                        constants + static_cast<int>(values.size()),
+                                        trace.slots.fine};
+  return std::make_unique<codegen::FrameCode>(frame, narrow, wide);
+}
+
+struct Asked {
+  WrittenKind kind;
+  const std::vector<Channel>& observed;
+  int slot_numbers;
+
+  bool is(const WrittenStep& w) const {
+    return w.kind == kind && w.slot_numbers == slot_numbers && same_channels(w.observed, observed);
+  }
+};
+
+// None where the machine refuses executable memory. Throws Untraceable.
+std::optional<WrittenStep> write_step(const Asked& asked, const Mechanism& m,
+                                      const Parameters<double>& sizes, std::vector<Known> known) {
+  WrittenStep step;
+  step.kind = asked.kind;
+  step.slot_numbers = asked.slot_numbers;
+  step.observed = asked.observed;
+  const bool is_trial = asked.kind == WrittenKind::trial;
+  const StepTrace trace = is_trial ? trace_trial(m, sizes, known, asked.observed)
+                                   : trace_step(m, sizes, known, asked.observed);
+  step.slots = trace.slots;
+  step.code = place_code(trace, trace.slots.end, step);
+  if (is_trial) {
+    step.inside = place_code(trace_inside(m, sizes, known, asked.observed), step.frame_slots, step);
+  }
+  step.known = std::move(known);
+  if (!step.code || (is_trial && !step.inside)) return std::nullopt;
   return step;
 }
 
@@ -91,9 +123,9 @@ struct Structure {
 
 class Library {
  public:
-  std::shared_ptr<const WrittenStep> find(const Mechanism& m, std::span<const LaneCase> cases,
-                                          const std::vector<Channel>& observed, long steps,
-                                          Kernels choice, int slot_numbers) {
+  std::shared_ptr<const WrittenStep> find(const Asked& asked, const Mechanism& m,
+                                          std::span<const LaneCase> cases, long steps,
+                                          Kernels choice) {
     const std::lock_guard lock(mutex_);
     std::vector<Known> known = known_in_all(cases);
     Structure& s = structure_of(m, known.size());
@@ -101,13 +133,13 @@ class Library {
     if (!s.traceable) return nullptr;
     const WrittenStep* near = nullptr;
     for (const auto& w : s.written) {
-      if (w->slot_numbers != slot_numbers || !same_channels(w->observed, observed)) continue;
+      if (!asked.is(*w)) continue;
       if (serves(w->known, known)) return w;
       near = w.get();
     }
     if (choice != Kernels::written && s.steps < kStepsPerFreedom * (m.nv + 1)) return nullptr;
     if (near) known = known_in_both(std::move(known), near->known);
-    return write(m, *cases[0].parameters, std::move(known), observed, slot_numbers, s);
+    return write(asked, m, *cases[0].parameters, std::move(known), s);
   }
 
   WrittenReport report() {
@@ -131,24 +163,20 @@ class Library {
     return structures_.front();
   }
 
-  std::shared_ptr<const WrittenStep> write(const Mechanism& m, const Parameters<double>& sizes,
-                                           std::vector<Known> known,
-                                           const std::vector<Channel>& observed, int slot_numbers,
-                                           Structure& s) {
+  std::shared_ptr<const WrittenStep> write(const Asked& asked, const Mechanism& m,
+                                           const Parameters<double>& sizes,
+                                           std::vector<Known> known, Structure& s) {
     const auto begin = std::chrono::steady_clock::now();
-    std::optional<StepTrace> trace;
+    std::optional<WrittenStep> step;
     try {
-      trace.emplace(trace_step(m, sizes, known, observed));
+      step = write_step(asked, m, sizes, std::move(known));
     } catch (const Untraceable& e) {
       s.traceable = false;
       ++report_.untraceable;
       report_.why = e.what();
       return nullptr;
     }
-    std::optional<WrittenStep> step = place_code(*trace, slot_numbers);
     if (!step) return nullptr;
-    step->observed = observed;
-    step->known = std::move(known);
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
     ++report_.kernels;
     report_.seconds += spent.count();
@@ -189,7 +217,18 @@ std::shared_ptr<const WrittenStep> written_step(const Mechanism& m, std::span<co
                                                 const std::vector<Channel>& observed, long steps,
                                                 const SimdLevel& level, int slot_numbers) {
   if (!why_not_written(level).empty()) return nullptr;
-  return library().find(m, cases, observed, steps, level.kernels, slot_numbers);
+  return library().find({WrittenKind::step, observed, slot_numbers}, m, cases, steps,
+                        level.kernels);
+}
+
+std::shared_ptr<const WrittenStep> written_trial(const Mechanism& m,
+                                                 std::span<const LaneCase> cases,
+                                                 const std::vector<Channel>& observed,
+                                                 long evaluations, const SimdLevel& level,
+                                                 int slot_numbers) {
+  if (!why_not_written(level).empty()) return nullptr;
+  return library().find({WrittenKind::trial, observed, slot_numbers}, m, cases,
+                        evaluations / kEvaluationsPerStep, level.kernels);
 }
 
 bool is_writable(const Mechanism& m, const Channel& channel) {

@@ -1,7 +1,8 @@
-// Steps that the program writes for a structure when it meets it, and keeps for the rest of the
-// process. A parameter that is 0, 1 or -1 in all lanes is a constant of the code; a pack that does
-// not fit has another code written that fits both. No bit of a result depends on which code runs:
-// all give those of the general step loop of a fused instruction set.
+// Steps of constant length, and trials of adaptive ones, that the program writes for a structure
+// when it meets it, and keeps for the rest of the process. A parameter that is 0, 1 or -1 in all
+// lanes is a constant of the code; a pack that does not fit has another code written that fits
+// both. No bit of a result depends on which code runs: all give those of the general step loop of a
+// fused instruction set.
 #pragma once
 
 #include <memory>
@@ -17,16 +18,20 @@
 
 namespace linkstudy {
 
+enum class WrittenKind { step, trial };
+
 // For AVX2; where a slot has more numbers, for AVX-512 too (core/codegen/frame_code.h).
 struct WrittenStep {
+  WrittenKind kind = WrittenKind::step;
   int slot_numbers = 0;
-  StepSlots slots;
+  StepSlots slots;  // of a trial: `fine` and `end` (core/simulation/trial_slots.h)
   std::vector<Channel> observed;
   std::vector<Known> known;
   std::vector<codegen::SlotValue> constants;
   int frame_slots = 0;
   std::vector<std::unique_ptr<codegen::WrittenCode>> pages;
   std::unique_ptr<codegen::FrameCode> code;
+  std::unique_ptr<codegen::FrameCode> inside;  // of trials: instants inside steps
 };
 
 // What has been written in this process.
@@ -48,6 +53,14 @@ std::string why_not_written(const SimdLevel& level);
 std::shared_ptr<const WrittenStep> written_step(const Mechanism& m, std::span<const LaneCase> cases,
                                                 const std::vector<Channel>& observed, long steps,
                                                 const SimdLevel& level, int slot_numbers);
+
+// The same of trials and instants inside steps, where the equations of motion have been evaluated
+// so often since the last question.
+std::shared_ptr<const WrittenStep> written_trial(const Mechanism& m,
+                                                 std::span<const LaneCase> cases,
+                                                 const std::vector<Channel>& observed,
+                                                 long evaluations, const SimdLevel& level,
+                                                 int slot_numbers);
 
 // False of channels that are fitted lane by lane: reactions shared in loops.
 bool is_writable(const Mechanism& m, const Channel& channel);

@@ -179,13 +179,14 @@ TEST(Rsup, A_planar_clearance_lengthens_and_shortens_the_coupler_by_no_more_than
   EXPECT_LT(shortest, -0.99 * kRadial);
 }
 
-// Without friction the axes skew freely. A contact that begins or ends between two samples is no
+// Without friction the axes skew freely; when they first touch on both sides is a matter of chance,
+// after 1.1 to 2.5 s. A contact that begins or ends between two samples is no
 // deeper than the way made in between, and its force no larger than that depth allows.
 TEST(Rsup, A_run_passes_through_all_four_states_of_contact_and_forces_are_continuous_there) {
   constexpr double kInterval = 1e-5;  // s
   const PinSamples pin =
       run_pin({.clearance = ClearanceKind::spatial, .friction = false, .at_speed = kFast},
-              located(1e-7, 1.5, kInterval));
+              located(1e-7, 3.0, kInterval));
   ASSERT_EQ(pin.samples.outcome.cause, Cause::ok) << pin.samples.outcome.message;
   std::array<int, 4> seen{};
   int changes = 0;

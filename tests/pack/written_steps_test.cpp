@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "core/simulation/prepare.h"
+#include "core/simulation/simulate.h"
 #include "tests/mechanisms/repeating_loads.h"
 #include "tests/pack/shipped_models.h"
 #include "tests/support/same_bits.h"
@@ -49,6 +50,8 @@ void expect_same(const Runs& a, const Runs& b) {
     const SimulationOutcome &x = a.cases[i].outcome, &y = b.cases[i].outcome;
     EXPECT_EQ(x.cause, y.cause) << x.message;
     EXPECT_EQ(x.steps, y.steps);
+    EXPECT_EQ(x.rejected, y.rejected);
+    EXPECT_EQ(x.evaluations, y.evaluations);
     EXPECT_TRUE(same_bits(x.final_state.q, y.final_state.q));
     EXPECT_TRUE(same_bits(x.final_state.v, y.final_state.v));
     EXPECT_TRUE(same_bits(x.final_state.z, y.final_state.z));
@@ -83,6 +86,34 @@ TEST(WrittenSteps, Of_every_shipped_model_have_the_bits_of_the_general_step_loop
       EXPECT_EQ(written_report().kernels > before, writes);
     }
   }
+}
+
+// And instants inside adaptive steps, where channels are looked at often and seldom.
+TEST(WrittenTrials, Of_every_shipped_model_have_the_bits_of_the_general_loop) {
+  for (const std::string& path : shipped_models()) {
+    ModelInput input = read_model(path);
+    const Preparation p = prepare(input.linkage, input.options);
+    ASSERT_EQ(p.cause, Cause::ok) << path << p.message;
+    SimulationOptions options = input.options;
+    options.integrator = Integrator::adaptive;
+    options.relative_tolerance = 1e-6;
+    options.absolute_tolerance = 1e-8;
+    options.end_time = std::min(options.end_time, 3e3 * options.step);
+    options.step = options.end_time / 200;
+    options.output_interval = 10 * options.step;
+    options.step_limit = 300;
+    for (const SimdLevel& level : simd_levels()) {
+      SCOPED_TRACE(path + " " + std::string(name_of(level.isa)));
+      for (const long stride : {3, 97}) {
+        const int cases = level.lanes + 1;
+        const Runs general = run(p.model, options, cases, stride, level, Kernels::general);
+        expect_same(run(p.model, options, cases, stride, level, Kernels::written), general);
+        expect_same(run(p.model, options, cases, stride, {level.isa, 1}, Kernels::written),
+                    general);
+      }
+    }
+  }
+  EXPECT_EQ(written_report().untraceable, 0) << written_report().why;
 }
 
 TEST(WrittenSteps, Of_cut_and_replacement_joints_have_them_over_ten_thousand_steps) {

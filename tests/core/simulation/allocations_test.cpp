@@ -5,7 +5,7 @@
 #include <new>
 
 #include "tests/mechanisms/four_bar.h"
-#include "tests/mechanisms/rsrrp.h"
+#include "tests/mechanisms/rsup.h"
 #include "tests/support/engine_probe.h"
 
 namespace {
@@ -97,6 +97,23 @@ void expect_no_more_with_ten_times_the_steps(const Model& model, const std::stri
   }
 }
 
+// Of adaptive runs to a tolerance that asks for so many steps, with contacts listed.
+long allocations_of_adaptive(const Model& model, double end_time, const SimdLevel& level) {
+  std::vector<Observers> observers(static_cast<std::size_t>(2 * level.lanes));
+  for (Observers& o : observers) {
+    o.reductions.push_back({list_channels(model.mechanism).back(), {0, 1000, 1}, {}});
+    o.contacts.most = 50;
+  }
+  std::vector<BatchCase> cases;
+  for (auto& o : observers) cases.push_back({&model.parameters, &model.start, &o, {}});
+  SimulationOptions options = adaptive_steps_of(1e-3 * end_time, end_time, 1e-8);
+  const long before = allocations;
+  simulate_batch(model.mechanism, options, cases, {}, level);
+  const long after = allocations;
+  EXPECT_EQ(cases.back().outcome.cause, Cause::ok) << cases.back().outcome.message;
+  return after - before;
+}
+
 }  // namespace
 
 TEST(Allocations, The_counter_counts) {
@@ -114,6 +131,25 @@ TEST(Allocations, Ten_times_the_steps_allocate_no_more) {
     linkage.points = {{"tip", linkage.links.back().name, Eigen::Vector3d::Ones()}};
     const Model model = compile(linkage);
     expect_no_more_with_ten_times_the_steps(model, linkage.name);
+  }
+}
+
+TEST(Allocations, Ten_times_the_adaptive_steps_allocate_no_more) {
+  Linkage projected = rsrrp();
+  projected.closures[0].stabilization = Stabilization::projection;
+  for (const Linkage& linkage : {rsrrp(), projected, rsup({.clearance = ClearanceKind::planar})}) {
+    const Model model = compile(linkage);
+    for (const char* lanes : {"1", ""}) {
+      for (const Kernels kernels : {Kernels::general, Kernels::written}) {
+        SimdLevel level = choose_simd_level(nullptr, lanes);
+        level.kernels = kernels;
+        allocations_of_adaptive(model, 0.05, level);
+        const long few = allocations_of_adaptive(model, 0.05, level);
+        EXPECT_GT(few, 0);
+        EXPECT_EQ(allocations_of_adaptive(model, 0.5, level), few)
+            << linkage.name << ' ' << name_of(kernels) << ' ' << level.lanes;
+      }
+    }
   }
 }
 
