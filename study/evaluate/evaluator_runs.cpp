@@ -203,6 +203,9 @@ void Evaluator::run_group(const CaseGroup& group, std::span<Attempt> attempts) {
     }
     return;
   }
+  // More cases than lanes take turns.
+  const auto lanes = static_cast<double>(simd_level().lanes);
+  spent_s *= std::min(1.0, lanes / static_cast<double>(group.size()));
   std::vector<bool> is_counted(attempts.size(), false);
   for (const PreparedCase* item : group) {
     Attempt& one = attempts[item->point];

@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <map>
 
+#include "study/metrics/invalid_point.h"
+
 namespace linkstudy {
 namespace {
+
+constexpr int kRefills = 4;
 
 // In the order of their first points.
 std::vector<std::vector<Point>> sort_by_kind(const std::vector<Point>& points,
@@ -34,18 +38,28 @@ std::vector<Value> deciding_values(const Point& point, const std::vector<Paramet
   return values;
 }
 
+int pack_width(const Evaluator& evaluator, const Point& first, int lanes) {
+  try {
+    const ModelInput model = evaluator.model_at(0, first.values);
+    const bool refills = lanes > 1 && model.options.integrator == Integrator::adaptive;
+    return refills ? kRefills * lanes : lanes;
+  } catch (const InvalidPoint&) {
+    return lanes;
+  }
+}
+
 std::vector<std::vector<Point>> form_packs(const std::vector<Point>& points,
-                                           const std::vector<Parameter>& parameters, int lanes,
+                                           const std::vector<Parameter>& parameters, int width,
                                            int ranks) {
   const std::size_t of_rank = (points.size() + static_cast<std::size_t>(ranks) - 1) /
                               static_cast<std::size_t>(std::max(1, ranks));
-  const std::size_t width = std::clamp(of_rank, std::size_t{1}, static_cast<std::size_t>(lanes));
+  const std::size_t most = std::clamp(of_rank, std::size_t{1}, static_cast<std::size_t>(width));
   std::vector<std::vector<Point>> packs;
   for (const std::vector<Point>& kind : sort_by_kind(points, parameters)) {
-    for (std::size_t i = 0; i < kind.size(); i += width) {
+    for (std::size_t i = 0; i < kind.size(); i += most) {
       const auto begin = kind.begin() + static_cast<std::ptrdiff_t>(i);
       packs.emplace_back(begin,
-                         begin + static_cast<std::ptrdiff_t>(std::min(width, kind.size() - i)));
+                         begin + static_cast<std::ptrdiff_t>(std::min(most, kind.size() - i)));
     }
   }
   return packs;

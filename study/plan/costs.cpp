@@ -67,7 +67,7 @@ void Costs::measure_kinds(double seconds) {
   double parts = 0.0;
   for (const std::size_t i : order) {
     const RunKind& kind = kinds_.all()[i];
-    parts += kind.has_constant_steps() && kind.points.size() > 1 && lanes_ > 1 ? 2.0 : 1.0;
+    parts += kind.fills_lanes() && kind.points.size() > 1 && lanes_ > 1 ? 2.0 : 1.0;
   }
   const double part = std::max(seconds / parts, kShortestProbe);
   for (const std::size_t i : order) {
@@ -79,9 +79,8 @@ void Costs::measure_kinds(double seconds) {
 }
 
 std::vector<Point> Costs::points_beside(const RunKind& kind) const {
-  const std::size_t width = kind.has_constant_steps()
-                                ? std::min(kind.points.size(), static_cast<std::size_t>(lanes_))
-                                : 1;
+  const std::size_t width =
+      kind.fills_lanes() ? std::min(kind.points.size(), static_cast<std::size_t>(lanes_)) : 1;
   std::vector<Point> points;
   for (std::size_t k = 0; k < width; ++k) points.push_back(*kind.points[k]);
   return points;
@@ -139,7 +138,7 @@ double Costs::run_s(std::size_t kind, std::size_t count) const {
   const KindCost& cost = costs_[kind];
   if (!cost.alone) return 0.0;
   const double alone = cost.alone->run_s;
-  if (count == 1 || !kinds_.all()[kind].has_constant_steps() || lanes_ == 1) {
+  if (count == 1 || !kinds_.all()[kind].fills_lanes() || lanes_ == 1) {
     return alone * static_cast<double>(count);
   }
   const double beside = cost.beside ? cost.beside->run_s : alone / kAloneOverBeside;

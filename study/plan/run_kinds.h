@@ -18,6 +18,7 @@ struct RunKind {
   std::vector<const Point*> points{};  // of this kind, in their order
 
   bool has_constant_steps() const { return options.integrator == Integrator::rk4; }
+  bool fills_lanes() const { return options.integrator != Integrator::stiff; }
 };
 
 // Whether runs of both go side by side.
