@@ -186,10 +186,9 @@ class Chooser {
     const std::optional<double> needed_s = time_needed(entry, input, ranks_.size(), left_s);
     if (!needed_s || *needed_s <= time_left()) return true;
     handled.needed_s = needed_s;
-    say(fmt::format(
-        "{} takes about {}, {} are left: {}", entry.name, duration_text(*needed_s),
-        duration_text(left_s),
-        fits_another(*needed_s) ? "it waits for another allocation" : "it comes last"));
+    say(fmt::format("{} takes about {}, {} are left: {}", entry.name, duration_text(*needed_s),
+                    duration_text(left_s),
+                    fits_another(*needed_s) ? "it waits for another allocation" : "it comes last"));
     return false;
   }
 

@@ -3,9 +3,9 @@
 // whoever holds its lock, and one whose holder was killed is gone on with.
 //
 // What has ended stays so until its input reads differently, but what was refused is tried once by
-// every start; a file that is written anew, or comes later, is taken as well. With a deadline nothing is begun that cannot end in time (enough_time.h)
-// but would in another allocation of the same length; what would not is begun when nothing else is
-// left, and goes on in the next.
+// every start; a file that is written anew, or comes later, is taken as well. With a deadline
+// nothing is begun that cannot end in time (enough_time.h) but would in another allocation of the
+// same length; what would not is begun when nothing else is left, and goes on in the next.
 #pragma once
 
 #include <functional>
