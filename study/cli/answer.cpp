@@ -18,9 +18,8 @@ constexpr std::array<std::pair<FileKind, AnswerWork>, 4> kWorks = {
 }  // namespace
 
 AnswerWork answer_work(FileKind kind) {
-  for (const auto& [of, work] : kWorks) {
+  for (const auto& [of, work] : kWorks)
     if (of == kind) return work;
-  }
   throw std::logic_error("a file of this kind is not run in evaluations");
 }
 

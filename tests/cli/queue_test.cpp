@@ -197,7 +197,6 @@ TEST_F(Queue, All_kinds_are_drained_in_order_with_the_digests_of_their_verbs) {
   for (const json& entry : complete["entries"]) {
     EXPECT_EQ(entry["study"]["state"], "complete") << entry["name"];
   }
-  // Nothing is left to do, in any number of starts.
   const Ended again = run("queue q2 --json");
   EXPECT_EQ(again.code, 0);
   EXPECT_THAT(begun_in(again.err), IsEmpty());
@@ -238,12 +237,10 @@ TEST_F(Queue, What_is_refused_keeps_no_other_from_running) {
 }
 
 TEST_F(Queue, The_exit_code_is_the_gravest_of_all_whenever_they_ended) {
-  const std::string infeasible =
-      replaced(tune_text(), "log = [1e3, 1e7]", "log = [1e3, 2e3]") + "[search]\nscan = 4\n";
   write("q/a_done.toml", plain_study(2));
   write("q/b_failures.toml", study_text() + "[run]\nmax_failures = 0\n");
   EXPECT_EQ(run("queue q").code, 3);
-  write("q/c_infeasible.toml", replaced(infeasible, "[search]\nscan = 4\n", ""));
+  write("q/c_infeasible.toml", replaced(tune_text(), "log = [1e3, 1e7]", "log = [1e3, 2e3]"));
   const Ended tuned = run("queue q");
   EXPECT_EQ(tuned.code, 4) << tuned.err;
   EXPECT_THAT(begun_in(tuned.err), ElementsAre("c_infeasible"));
@@ -263,10 +260,10 @@ reduce = "last"
   const Ended again = run("queue q");
   EXPECT_EQ(again.code, 5) << "nothing has changed";
   EXPECT_THAT(begun_in(again.err), IsEmpty());
-  EXPECT_EQ(states(), (States{{"a_done", "done"},
-                              {"b_failures", "failed"},
-                              {"c_infeasible", "failed"},
-                              {"d_no_order", "failed"}}));
+  States expected = {
+      {"b_failures", "failed"}, {"c_infeasible", "failed"}, {"d_no_order", "failed"}};
+  expected["a_done"] = "done";
+  EXPECT_EQ(states(), expected);
 }
 
 TEST_F(Queue, Ended_files_are_run_again_only_where_their_input_reads_differently) {
@@ -339,7 +336,7 @@ TEST_F(Queue, Programs_share_a_folder_and_run_every_file_once) {
   std::vector<std::string> begun = begun_in(other.err);
   for (const std::string& name : begun_in(log())) begun.push_back(name);
   EXPECT_THAT(begun, ::testing::UnorderedElementsAreArray(all));
-  for (const auto& [name, state] : states()) EXPECT_EQ(state, "done") << name;
+  EXPECT_THAT(states(), Each(Pair(::testing::_, "done")));
 }
 
 // What is longer than any allocation is begun when nothing else is left.
@@ -486,8 +483,7 @@ TEST_F(Queue, Where_nothing_can_be_kept_one_error_ends_all_ranks) {
 
 TEST_F(Queue, The_table_fits_a_hundred_columns) {
   write_all_kinds("q");
-  const std::string name =
-      "0_a_name_that_is_longer_than_most_people_would_write_for_a_file_of_theirs.toml";
+  const std::string name = "0_a_name_that_is_longer_than_most_would_write_for_a_file.toml";
   write("q/" + name, "x = [\n");
   std::filesystem::last_write_time(
       path("q") / name, std::filesystem::file_time_type::clock::now() - std::chrono::hours(1));
