@@ -199,12 +199,14 @@ class Start:
                    "all": [self.process.pid, *pids.values()]}[role]
         if None in targets or not self.is_up():
             return False
+        is_killed = False
         for pid in targets:
             try:
                 os.kill(pid, signal.SIGKILL)
+                is_killed = True
             except ProcessLookupError:
-                return False
-        return True
+                pass  # on its way out
+        return is_killed
 
     def end(self):
         """Waits for all that is left of it; the exit code."""
@@ -366,7 +368,7 @@ def main():
         for kind in FILES:
             harness.run(kind, f"q/{kind}.toml", "-o", f"whole_{kind}")
         harness.whole = {kind: harness.status(f"whole_{kind}")["digest"] for kind in FILES}
-        lives = 0
+        lives, told = 0, begin
         while time.monotonic() - begin < given.seconds and harness.kills.total() < given.kills:
             life = make_life(harness, lives)
             for _ in range(harness.random.choice([1, 5, 10, 20])):
@@ -374,6 +376,9 @@ def main():
                     break
             life.finish(harness.whole)
             lives += 1
+            if time.monotonic() - told > 120:
+                told = time.monotonic()
+                print(f"{harness.kills.total()} kills after {told - begin:.0f} s", flush=True)
     for (name, role), count in sorted(harness.kills.items()):
         print(f"{name:13} {role:11} {count:5}")
     print(f"{harness.kills.total()} kills in {lives} lives, {time.monotonic() - begin:.0f} s: "
