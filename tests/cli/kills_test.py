@@ -112,6 +112,14 @@ def whole_records(path):
     return data[:end]
 
 
+def is_alive(pid):
+    """A process that is no zombie."""
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0] != "Z"
+    except (FileNotFoundError, ProcessLookupError):
+        return False
+
+
 class Harness:
     """One scratch folder, and everything that is started in it."""
 
@@ -128,6 +136,7 @@ class Harness:
             '#!/bin/sh\necho $$ >"pids/$PIDS.${OMPI_COMM_WORLD_RANK:-0}"\nexec "$@"\n')
         (folder / "pids").mkdir()
         self.started = 0
+        self.stuck = 0  # launchers without ranks
 
     def fill(self, name):
         """A folder with all files."""
@@ -210,9 +219,17 @@ class Start:
 
     def end(self):
         """Waits for all that is left of it; the exit code."""
-        code = self.process.wait(60)
+        try:
+            code = self.process.wait(60)
+        except subprocess.TimeoutExpired:
+            # mpirun of Open MPI 4.1.4 forgets to end, at times, when a rank dies in its start.
+            if not self.has_mpirun or any(is_alive(pid) for pid in self.pids().values()):
+                raise
+            self.harness.stuck += 1
+            self.process.kill()
+            code = self.process.wait()
         until = time.monotonic() + 20
-        while any(Path(f"/proc/{pid}").exists() for pid in self.pids().values()):
+        while any(is_alive(pid) for pid in self.pids().values()):
             if time.monotonic() > until:
                 raise AssertionError(f"ranks outlive their launcher\n{self.log.read_text()}")
             time.sleep(0.01)
@@ -353,6 +370,14 @@ def make_life(harness, number):
     return Life(harness, name, kinds, arguments, {kind: f"q/results/{kind}" for kind in kinds})
 
 
+def live(life, until):
+    """Some starts that are killed, and one that is not."""
+    for _ in range(life.harness.random.choice([1, 5, 10, 20])):
+        if not life.step() or time.monotonic() >= until:
+            break
+    life.finish(life.harness.whole)
+
+
 def main():
     parser = argparse.ArgumentParser(usage=__doc__)
     parser.add_argument("program")
@@ -371,16 +396,19 @@ def main():
         lives, told = 0, begin
         while time.monotonic() - begin < given.seconds and harness.kills.total() < given.kills:
             life = make_life(harness, lives)
-            for _ in range(harness.random.choice([1, 5, 10, 20])):
-                if not life.step() or time.monotonic() - begin >= given.seconds:
-                    break
-            life.finish(harness.whole)
+            try:
+                live(life, begin + given.seconds)
+            except BaseException:
+                print(harness.kills)
+                raise
             lives += 1
             if time.monotonic() - told > 120:
                 told = time.monotonic()
                 print(f"{harness.kills.total()} kills after {told - begin:.0f} s", flush=True)
     for (name, role), count in sorted(harness.kills.items()):
         print(f"{name:13} {role:11} {count:5}")
+    if harness.stuck > 0:
+        print(f"{harness.stuck} times mpirun did not end when its ranks had")
     print(f"{harness.kills.total()} kills in {lives} lives, {time.monotonic() - begin:.0f} s: "
           "nothing lost, every digest that of an undisturbed run")
     return 0 if harness.kills.total() > 0 else 1
