@@ -73,8 +73,9 @@ class Chooser {
  private:
   struct Handled {
     std::string version;
-    std::optional<double> needed_s;  // of one that is left for another allocation
-    double unix_s = 0.0;             // when it was looked at
+    std::string input_sha256{};        // "" where it could not be read
+    std::optional<double> needed_s{};  // of one that is left for another allocation
+    double unix_s = 0.0;               // when it was looked at
   };
 
   static std::string describe(int code) {
@@ -139,14 +140,12 @@ class Chooser {
   }
 
   std::optional<Entry> begin(const Entry& entry) {
-    handled_[entry.name] = {entry.version, {}, unix_time_s()};
+    Handled& handled = handled_[entry.name];
+    handled.needed_s.reset();
+    handled.unix_s = unix_time_s();
     has_begun_ = true;
-    record_.version = entry.version;
-    record_.host = ranks_.host();
-    record_.process = getpid();
-    record_.ranks = ranks_.size();
-    record_.begun_unix_s = unix_time_s();
-    record_.end.reset();
+    record_ = {handled.input_sha256, entry.version, ranks_.host(), getpid(),
+               ranks_.size(),        handled.unix_s};
     hold_->write(record_);
     say(fmt::format("{} begins", entry.name));
     return entry;
@@ -160,20 +159,19 @@ class Chooser {
     if (is_known && !(before && before->begun_unix_s > handled.unix_s)) {
       return *handled.needed_s <= time_left();
     }
-    handled = {entry.version, {}, unix_time_s()};
-    record_ = {};
+    handled = {.version = entry.version, .unix_s = unix_time_s()};
     try {
       const StudyInput input = work_.read(entry);
-      record_.input_sha256 = work_.identify(input, ranks_);
-      if (has_ended(before)) return false;
+      handled.input_sha256 = work_.identify(input, ranks_);
+      if (has_ended(before, handled.input_sha256)) return false;
       return has_time(entry, input, handled);
     } catch (const std::exception&) {
       return true;
     }
   }
 
-  bool has_ended(const std::optional<EntryRecord>& before) const {
-    if (!before || !before->end || before->input_sha256 != record_.input_sha256) return false;
+  bool has_ended(const std::optional<EntryRecord>& before, const std::string& input_sha256) const {
+    if (!before || !before->end || before->input_sha256 != input_sha256) return false;
     const int code = before->end->exit_code;
     // What kept it from beginning or from being written may have passed.
     if (code == kExitResumable || code == kInputError || code == kInternalError) return false;

@@ -19,6 +19,7 @@ namespace linkstudy::queue {
 namespace {
 
 using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 
 void sleep_s(double seconds) {
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
@@ -103,6 +104,7 @@ TEST_F(Drain, What_no_allocation_would_end_comes_last) {
   write("z", 1e-2);
   EXPECT_THAT(drained(0.4 * forecast_s_ + 0.5), ElementsAre("z", "long"));
   EXPECT_EQ(code_, 0);
+  EXPECT_THAT(drained(1e3), IsEmpty()) << "what has ended is known by its own input";
 }
 
 // Otherwise it would wait for a better allocation, and never find one.
