@@ -208,6 +208,7 @@ void StudySession::warn(const Evaluation& evaluation) {
 
 void StudySession::take(Evaluation taken) {
   warn(taken);
+  taken.warnings = {};  // as long as all the rest of a row, and said
   const Evaluation& evaluation = record_.add(std::move(taken));
   log_.debug("evaluation {}: {} in {:.3g} s on rank {}", evaluation.point.id,
              name_of(evaluation.status), evaluation.wall_s, evaluation.rank);
