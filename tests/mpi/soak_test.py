@@ -89,7 +89,7 @@ integrator = "adaptive"
 tolerance = { relative = 1e-4 }
 """
 
-TIMEOUT = 2.0
+TIMEOUT = 5.0
 FREEZE = 0.5
 
 # Values of a case that ends well, and what makes it fail.
@@ -114,7 +114,7 @@ FAULTS = {
     "step_too_coarse": {"joint.B.friction.sigma0": 1e6},
     "no_full_turn": {"joint.W.initial.velocity.0": 10.0},
     "invalid_point": {"joint.B.friction.mu_k": 0.4},
-    "timeout": {"simulation.step": 1e-8},
+    "timeout": {"simulation.step": 4e-9},
 }
 
 
@@ -299,9 +299,9 @@ def check(soak, causes):
     for rank in range(1, soak.ranks - 1):
         if rank in first and rank in last and last[rank] > 1.1 * first[rank] + 4000:
             raise AssertionError(f"rank {rank} grows: {soak.resident}")
-    # Rank 0 keeps rows: some hundred bytes each.
+    # Rank 0 keeps the rows, 0.9 kB each of ten values, and makes results.h5 of them now and then.
     rows = 0.9 * soak.cases
-    if 0 in first and 0 in last and (last[0] - first[0]) * 1024 > 2000 * rows + 8e6:
+    if 0 in first and 0 in last and (last[0] - first[0]) * 1024 > 4000 * rows + 8e6:
         raise AssertionError(f"rank 0 grows: {soak.resident}")
 
 
