@@ -1,16 +1,21 @@
 #!/usr/bin/env bash
-# Runs (or continues) one study or tuning on this machine with plain mpirun.
-# Time: that of the study. The first Ctrl-C (or SIGUSR1) lets evaluations in flight finish; a second
+# Runs (or continues) one file, or a folder of them, on this machine with plain mpirun.
+# Time: that of the work. The first Ctrl-C (or SIGUSR1) lets evaluations in flight finish; a second
 # one, SIGTERM and SIGHUP cancel them at once. All end resumable: exit 75, the same command goes on.
-# Output: the table of the study here, its results in DIR.
-# usage: jobs/mpirun_study.sh study|tune FILE DIR [options of linkstudy]
+# Output: the table here, results in DIR, or of FOLDER in FOLDER/results.
+# usage: jobs/mpirun_study.sh study|tune|calibrate|converge FILE DIR [options of linkstudy]
+#        jobs/mpirun_study.sh queue FOLDER [options of linkstudy]
 #        RANKS=8 LINKSTUDY=path/to/linkstudy to change the defaults
 set -euo pipefail
-if [ $# -lt 3 ]; then
-  echo "usage: jobs/mpirun_study.sh study|tune FILE DIR [options of linkstudy]" >&2
+if [ "${1:-}" = queue ] && [ $# -ge 2 ]; then
+  work=(queue "$2"); shift 2
+elif [ "${1:-}" != queue ] && [ $# -ge 3 ]; then
+  work=("$1" "$2" -o "$3"); shift 3
+else
+  echo "usage: jobs/mpirun_study.sh study|tune|calibrate|converge FILE DIR [options]" >&2
+  echo "       jobs/mpirun_study.sh queue FOLDER [options of linkstudy]" >&2
   exit 2
 fi
-verb=$1; file=$2; results=$3; shift 3
 
 linkstudy=${LINKSTUDY:-$(dirname "$(readlink -f "$0")")/../build/study/linkstudy}
 for program in "$linkstudy" mpirun; do
@@ -45,7 +50,7 @@ trap 'wanted=USR2' TERM HUP USR2
 
 set -m
 mpirun -n "${RANKS:-2}" --oversubscribe --bind-to none \
-  "$linkstudy" "$verb" "$file" -o "$results" "$@" </dev/null &
+  "$linkstudy" "${work[@]}" "$@" </dev/null &
 job=$!
 set +m
 

@@ -26,9 +26,9 @@ VerbEnd answer_calibrate(StudySession& session, bool json) {
   const auto say = [&](const calibration::FitReport& report, const std::string& digest) {
     const bool has_failed = report.fit.status == calibration::FitStatus::failed;
     return VerbEnd{has_failed ? kNotTuned : kDone,
-                      json ? calibration::write_json(report, digest) + "\n"
-                           : text_of(report, session.record().results(), digest),
-                      std::string(name_of(report.fit.status))};
+                   json ? calibration::write_json(report, digest) + "\n"
+                        : text_of(report, session.record().results(), digest),
+                   std::string(name_of(report.fit.status))};
   };
   return find_answer(session, json, run_calibration, say);
 }

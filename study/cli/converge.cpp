@@ -13,10 +13,10 @@ namespace linkstudy {
 VerbEnd answer_converge(StudySession& session, bool json) {
   const auto say = [&](const convergence::Convergence& result, const std::string& digest) {
     return VerbEnd{result.is_settled() ? kDone : kNotConverged,
-                      json ? convergence::write_json(result, digest) + "\n"
-                           : convergence_text(result, output_width()) +
-                                 fmt::format("results digest: {}\n", digest),
-                      result.is_settled() ? "orders found" : "no order found"};
+                   json ? convergence::write_json(result, digest) + "\n"
+                        : convergence_text(result, output_width()) +
+                              fmt::format("results digest: {}\n", digest),
+                   result.is_settled() ? "orders found" : "no order found"};
   };
   return find_answer(session, json, run_convergence, say);
 }

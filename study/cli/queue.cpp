@@ -33,18 +33,16 @@ std::string identify(const CommandLine& line, const StudyInput& input, Transport
   return make_identity(line, *evaluator, 0, ranks).input_sha256;
 }
 
-queue::EntryAnswer run_entry(const CommandLine& line, const RunDeadline& deadline,
-                             Transport& ranks) {
-  queue::EntryAnswer entry;
+int run_entry(const CommandLine& line, const RunDeadline& deadline, Transport& ranks,
+              const queue::OnEnd& end) {
   const auto work = [&](StudySession& session) {
     const FileKind kind = session.evaluator().input().kind;
     const VerbEnd answer = answer_work(kind)(session, false);
-    entry.verdict = answer.verdict;
+    end({answer.code, answer.verdict});
     return answer.code;
   };
-  entry.code = run_session(
+  return run_session(
       ranks, deadline, line, [&] { return read_study_input(line); }, work);
-  return entry;
 }
 
 // Drains the folder with the ranks of one group.
@@ -62,8 +60,8 @@ int drain(const CommandLine& line, const RunDeadline& deadline, Transport& all) 
       *ranks, {line.inputs.front(), deadline, line.wait_s, line.retry_failed, name},
       {[&](const queue::Entry& entry) { return read_study_input(line_of(line, entry, groups)); },
        [&](const StudyInput& input, Transport& own) { return identify(line, input, own); },
-       [&](const queue::Entry& entry, Transport& own) {
-         return run_entry(line_of(line, entry, groups), deadline, own);
+       [&](const queue::Entry& entry, Transport& own, const queue::OnEnd& end) {
+         return run_entry(line_of(line, entry, groups), deadline, own, end);
        }});
 }
 

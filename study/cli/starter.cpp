@@ -90,9 +90,9 @@ std::string make_batch_script(const std::string& verb, const std::string& script
                                   "#        LINKSTUDY_LEAD=S    with another lead: sbatch "
                                   "--signal=B:USR1@S ...\n",
                                   script, names.file));
-  text = replace_part(text, "if [ $# -lt 3 ]", "\nlinkstudy=",
-                      fmt::format("verb={}; file=$here/'{}'; results=$here/'{}'\n", verb,
-                                  names.file, names.results));
+  text = replace_part(text, "if [ \"${1:-}\" = queue ]", "\nlinkstudy=",
+                      fmt::format("results=$here/'{}'; work=({} \"$here\"/'{}' -o \"$results\")\n",
+                                  names.results, verb, names.file));
   return replace_part(text, "linkstudy=", "\n",
                       fmt::format("linkstudy=${{LINKSTUDY:-{}}}", program));
 }

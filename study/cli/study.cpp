@@ -12,7 +12,6 @@
 #include "study/session/end.h"
 #include "study/session/exit_code.h"
 #include "study/session/sensitivity_run.h"
-#include "study/session/study_points.h"
 
 namespace linkstudy {
 namespace {
@@ -53,7 +52,7 @@ VerbEnd answer_study(StudySession& session, bool json) {
     if (is_sensitivity(input.design.type)) {
       answer = run_sensitivity(session);
     } else {
-      session.evaluate(points_of(input));
+      session.evaluate_design();
     }
   });
   return finish(json, session, std::move(end), answer);

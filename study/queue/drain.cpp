@@ -23,6 +23,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double kSettledS = 2.0;  // a file that cannot be read and is younger is being written
+// With more of an allocation left another one gives no more time.
+constexpr double kWhole = 0.9;
 constexpr std::chrono::milliseconds kPause{200};
 
 double seconds_until(Clock::time_point time) {
@@ -61,18 +63,19 @@ class Chooser {
     idle_since_ = Clock::now();
   }
 
-  // Entries that another program would begin, or another allocation of this one.
-  bool leaves_any() {
-    return std::ranges::any_of(folder_.entries(), [&](const Entry& entry) {
-      return !is_handled(entry) && !is_held(entry) && entry.kind;
-    });
+  // The gravest of all entries that nobody works on.
+  int exit_code() {
+    int gravest = kDone;
+    for (const Entry& entry : folder_.entries()) gravest = std::max(gravest, code_of(entry));
+    return gravest;
   }
 
  private:
   struct Handled {
     std::string version;
-    std::optional<double> needed_s;  // of one that is left for another allocation
-    double unix_s = 0.0;             // when it was looked at
+    std::string input_sha256{};        // "" where it could not be read
+    std::optional<double> needed_s{};  // of one that is left for another allocation
+    double unix_s = 0.0;               // when it was looked at
   };
 
   static std::string describe(int code) {
@@ -99,13 +102,26 @@ class Chooser {
            !found->second.needed_s;
   }
 
+  int code_of(const Entry& entry) {
+    if (is_held(entry)) return kDone;
+    const std::optional<EntryRecord> record = read_record(entry);
+    const bool is_same = is_handled(entry) || (record && record->version == entry.version);
+    if (is_same && record && record->end) return record->end->exit_code;
+    return entry.kind ? kExitResumable : kDone;
+  }
+
+  // Whether another allocation would end what this one has no time for.
+  bool fits_another(double needed_s) const {
+    return needed_s <= allocation_s_ && has_begun_ && time_left() < kWhole * allocation_s_;
+  }
+
   std::optional<Entry> choose() {
     std::optional<Entry> longest;  // than any allocation
     bool is_other_left = false;
     is_any_unsettled_ = false;
     for (const Entry& entry : folder_.entries()) {
       if (is_handled(entry)) continue;
-      if (!entry.kind && entry.age_s < kSettledS) {
+      if (!entry.kind && std::abs(entry.age_s) < kSettledS) {
         is_any_unsettled_ = true;
         continue;
       }
@@ -115,8 +131,8 @@ class Chooser {
       hold_.reset();
       const std::optional<double> needed_s = handled_[entry.name].needed_s;
       if (!needed_s) continue;
-      is_other_left |= *needed_s <= allocation_s_;
-      if (*needed_s > allocation_s_ && !longest) longest = entry;
+      is_other_left |= fits_another(*needed_s);
+      if (!fits_another(*needed_s) && !longest) longest = entry;
     }
     if (!longest || is_other_left) return std::nullopt;
     hold_ = EntryHold::take(*longest);
@@ -124,12 +140,12 @@ class Chooser {
   }
 
   std::optional<Entry> begin(const Entry& entry) {
-    handled_[entry.name] = {entry.version, {}, unix_time_s()};
-    record_.host = ranks_.host();
-    record_.process = getpid();
-    record_.ranks = ranks_.size();
-    record_.begun_unix_s = unix_time_s();
-    record_.end.reset();
+    Handled& handled = handled_[entry.name];
+    handled.needed_s.reset();
+    handled.unix_s = unix_time_s();
+    has_begun_ = true;
+    record_ = {handled.input_sha256, entry.version, ranks_.host(), getpid(),
+               ranks_.size(),        handled.unix_s};
     hold_->write(record_);
     say(fmt::format("{} begins", entry.name));
     return entry;
@@ -143,21 +159,22 @@ class Chooser {
     if (is_known && !(before && before->begun_unix_s > handled.unix_s)) {
       return *handled.needed_s <= time_left();
     }
-    handled = {entry.version, {}, unix_time_s()};
-    record_ = {};
+    handled = {.version = entry.version, .unix_s = unix_time_s()};
     try {
       const StudyInput input = work_.read(entry);
-      record_.input_sha256 = work_.identify(input, ranks_);
-      if (has_ended(before)) return false;
+      handled.input_sha256 = work_.identify(input, ranks_);
+      if (has_ended(before, handled.input_sha256)) return false;
       return has_time(entry, input, handled);
     } catch (const std::exception&) {
       return true;
     }
   }
 
-  bool has_ended(const std::optional<EntryRecord>& before) const {
-    if (!before || !before->end || before->input_sha256 != record_.input_sha256) return false;
-    if (before->end->exit_code == kExitResumable) return false;
+  bool has_ended(const std::optional<EntryRecord>& before, const std::string& input_sha256) const {
+    if (!before || !before->end || before->input_sha256 != input_sha256) return false;
+    const int code = before->end->exit_code;
+    // What kept it from beginning or from being written may have passed.
+    if (code == kExitResumable || code == kInputError || code == kInternalError) return false;
     return !options_.retries || before->end->unix_s >= start_unix_s_;
   }
 
@@ -167,10 +184,9 @@ class Chooser {
     const std::optional<double> needed_s = time_needed(entry, input, ranks_.size(), left_s);
     if (!needed_s || *needed_s <= time_left()) return true;
     handled.needed_s = needed_s;
-    say(fmt::format(
-        "{} takes about {}, {} are left: {}", entry.name, duration_text(*needed_s),
-        duration_text(left_s),
-        *needed_s <= allocation_s_ ? "it waits for another allocation" : "it comes last"));
+    say(fmt::format("{} takes about {}, {} are left: {}", entry.name, duration_text(*needed_s),
+                    duration_text(left_s),
+                    fits_another(*needed_s) ? "it waits for another allocation" : "it comes last"));
     return false;
   }
 
@@ -182,6 +198,7 @@ class Chooser {
   double allocation_s_;
   Clock::time_point idle_since_;
   std::map<std::string, Handled> handled_;
+  bool has_begun_ = false;         // any entry
   bool is_any_unsettled_ = false;  // a file that is being written
   std::optional<EntryHold> hold_;  // of the entry in hand
   EntryRecord record_;
@@ -204,17 +221,37 @@ std::optional<Entry> share(const std::optional<Entry>& entry, Transport& ranks) 
 
 int drain(Transport& ranks, const DrainOptions& options, const DrainWork& work) {
   std::optional<Chooser> chooser;
-  if (ranks.rank() == 0) chooser.emplace(ranks, options, work);
-  int gravest = kDone;
+  int code = kDone;
+  bool has_failed = false;
+  // Rank 0 alone: where it cannot go on all leave together.
+  const auto guard = [&](const auto& step) {
+    if (ranks.rank() != 0 || has_failed) return;
+    try {
+      step();
+    } catch (...) {
+      const Failure failure = describe_failure(std::current_exception());
+      print_err(failure.text);
+      code = std::max(code, failure.code);
+      has_failed = true;
+    }
+  };
+  guard([&] { chooser.emplace(ranks, options, work); });
   for (;;) {
-    const std::optional<Entry> entry = share(chooser ? chooser->next() : std::nullopt, ranks);
+    std::optional<Entry> chosen;
+    guard([&] { chosen = chooser->next(); });
+    const std::optional<Entry> entry = share(chosen, ranks);
     if (!entry) break;
-    const EntryAnswer answer = work.run(*entry, ranks);
-    if (chooser) chooser->finish(*entry, answer);
-    gravest = std::max(gravest, answer.code);
+    int ended = -1;
+    const auto end = [&](const EntryAnswer& answer) {
+      ended = answer.code;
+      guard([&] { chooser->finish(*entry, answer); });
+    };
+    const int agreed = work.run(*entry, ranks, end);
+    if (ended < 0) end({agreed, ""});
+    if (agreed > ended) code = std::max(code, agreed);
   }
-  if (chooser && chooser->leaves_any()) gravest = std::max(gravest, kExitResumable);
-  return ranks.agree_exit_code(gravest);
+  guard([&] { code = std::max(code, chooser->exit_code()); });
+  return ranks.agree_exit_code(code);
 }
 
 }  // namespace linkstudy::queue

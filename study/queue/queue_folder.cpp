@@ -22,6 +22,10 @@ constexpr const char* kResults = "results";
 constexpr const char* kSuffix = ".queue";
 constexpr const char* kInput = ".toml";
 
+[[noreturn]] void fail_at(const fs::path& path, const char* doing, const std::error_code& error) {
+  throw StoreError(fmt::format("{}: cannot {}: {}", path.string(), doing, error.message()));
+}
+
 Entry make_entry(const fs::path& folder, const fs::path& file) {
   const std::string name = file.stem().string();
   const fs::path results = folder / kResults;
@@ -40,20 +44,29 @@ std::optional<FileKind> read_kind(const fs::path& file) {
 
 std::vector<fs::path> input_files(const fs::path& folder) {
   std::vector<fs::path> files;
-  for (const fs::directory_entry& one : fs::directory_iterator(folder)) {
-    const bool is_hidden = one.path().filename().string().starts_with('.');
-    if (one.path().extension() == kInput && !is_hidden && one.is_regular_file()) {
-      files.push_back(one.path());
+  std::error_code failed;
+  fs::directory_iterator one(folder, failed);
+  for (; !failed && one != fs::directory_iterator(); one.increment(failed)) {
+    const fs::path& path = one->path();
+    const bool is_hidden = path.filename().string().starts_with('.');
+    std::error_code ignored;
+    if (path.extension() == kInput && !is_hidden && one->is_regular_file(ignored)) {
+      files.push_back(path);
     }
   }
+  if (failed) fail_at(folder, "read this folder", failed);
   std::ranges::sort(files);
   return files;
 }
 
 std::string to_text(const EntryRecord& record) {
-  Json json = {{"input_sha256", record.input_sha256}, {"host", record.host},
-               {"process", record.process},           {"ranks", record.ranks},
-               {"begun_unix_s", record.begun_unix_s}, {"end", nullptr}};
+  Json json = {{"input_sha256", record.input_sha256},
+               {"version", record.version},
+               {"host", record.host},
+               {"process", record.process},
+               {"ranks", record.ranks},
+               {"begun_unix_s", record.begun_unix_s},
+               {"end", nullptr}};
   if (record.end) {
     json["end"] = {{"exit_code", record.end->exit_code},
                    {"verdict", record.end->verdict},
@@ -67,8 +80,8 @@ std::optional<EntryRecord> parse(const std::string& text) {
   const Json json = Json::parse(text, nullptr, false);
   if (!json.is_object()) return std::nullopt;
   try {
-    EntryRecord record{json.at("input_sha256"), json.at("host"), json.at("process"),
-                       json.at("ranks"), json.at("begun_unix_s")};
+    EntryRecord record{json.at("input_sha256"), json.at("version"), json.at("host"),
+                       json.at("process"),      json.at("ranks"),   json.at("begun_unix_s")};
     const Json& end = json.at("end");
     if (end.is_object()) record.end = {end.at("exit_code"), end.at("verdict"), end.at("unix_s")};
     return record;
@@ -81,9 +94,14 @@ std::optional<EntryRecord> parse(const std::string& text) {
 
 Folder::Folder(fs::path folder) : folder_(std::move(folder)) {
   std::error_code failed;
-  if (fs::is_directory(folder_, failed)) return;
-  throw StoreError(
-      fmt::format("{}: there is no such folder; name one with the files to run", folder_.string()));
+  if (!fs::is_directory(folder_, failed)) {
+    throw StoreError(fmt::format("{}: there is no such folder; name one with the files to run",
+                                 folder_.string()));
+  }
+  if (fs::exists(folder_ / kJournalName, failed)) {
+    throw StoreError(fmt::format("{}: holds results ({}); name a folder with the files to run",
+                                 folder_.string(), kJournalName));
+  }
 }
 
 std::vector<Entry> Folder::entries() {
@@ -114,7 +132,7 @@ bool is_queue(const fs::path& directory) {
 
 std::optional<EntryRecord> read_record(const Entry& entry) {
   std::error_code failed;
-  if (!fs::exists(entry.record, failed)) return std::nullopt;
+  if (!fs::is_regular_file(entry.record, failed)) return std::nullopt;
   return parse(read_file(entry.record));
 }
 
@@ -124,7 +142,9 @@ bool is_held(const Entry& entry) {
 }
 
 std::optional<EntryHold> EntryHold::take(const Entry& entry) {
-  fs::create_directories(entry.record.parent_path());
+  std::error_code failed;
+  fs::create_directories(entry.record.parent_path(), failed);
+  if (failed) fail_at(entry.record.parent_path(), "make this folder for the results", failed);
   File file(entry.record, O_RDWR | O_CREAT);
   if (!file.try_lock()) return std::nullopt;
   return EntryHold(std::move(file));

@@ -29,10 +29,10 @@ struct Entry {
 // The files of a folder, each read again only when it was written anew. A model is no entry.
 class Folder {
  public:
-  // Throws StoreError where it is none.
+  // Throws StoreError where it is none, or the results of a study.
   explicit Folder(std::filesystem::path folder);
 
-  // By name.
+  // By name. Throws StoreError where it cannot be read any more.
   std::vector<Entry> entries();
 
  private:
@@ -58,6 +58,7 @@ struct EntryEnd {
 
 struct EntryRecord {
   std::string input_sha256;  // of what was run; "" where it could not be read
+  std::string version;       // of the file then
   std::string host;
   std::int64_t process = 0;
   int ranks = 0;
@@ -72,7 +73,7 @@ bool is_held(const Entry& entry);
 // The right to work on an entry, for as long as it lives.
 class EntryHold {
  public:
-  // Nothing where somebody else has it.
+  // Nothing where somebody else has it; throws StoreError where results cannot be kept.
   static std::optional<EntryHold> take(const Entry& entry);
 
   void write(const EntryRecord& record);

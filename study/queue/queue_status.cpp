@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "study/record/counted.h"
 #include "study/report/status_report.h"
 #include "study/report/write_table.h"
 #include "study/schedule/progress.h"
@@ -35,7 +36,7 @@ std::optional<StudyStatus> read_study(const Entry& entry) {
 std::string finished_text(const EntryStatus& one) {
   if (!one.study) return "-";
   const std::uint64_t finished = one.study->done + one.study->failed_count();
-  const bool is_budget = one.study->is_tune && !one.study->is_complete;
+  const bool is_budget = one.study->is_search && !one.study->is_complete;
   return fmt::format("{} of {}{}", finished, is_budget ? "at most " : "", one.study->total);
 }
 
@@ -49,11 +50,20 @@ std::string time_text(const EntryStatus& one) {
   return duration_text(one.record->end->unix_s - one.record->begun_unix_s);
 }
 
+// What to type to be told.
+std::string why_text(const EntryStatus& one) {
+  const std::string file = one.entry.file.string();
+  const bool is_read = one.entry.kind && !one.record->input_sha256.empty();
+  if (!is_read) return "linkstudy check " + file;
+  return fmt::format("linkstudy {} {} -o {}", name_of(*one.entry.kind), file,
+                     one.entry.results.string());
+}
+
 std::string verdict_text(const EntryStatus& one) {
   if (one.state == EntryState::running && one.record) {
-    return fmt::format("on {}, {} ranks", one.record->host, one.record->ranks);
+    return fmt::format("on {}, {}", one.record->host, counted(one.record->ranks, "rank"));
   }
-  if (one.state == EntryState::refused) return "linkstudy check " + one.entry.file.string();
+  if (one.state == EntryState::refused) return why_text(one);
   return one.record && one.record->end ? one.record->end->verdict : "";
 }
 

@@ -42,7 +42,7 @@ std::string status_json(const StudyStatus& status) {
 
 std::string status_text(const StudyStatus& status) {
   std::string text = summary_line("state", state_text(status));
-  const bool is_budget = status.is_tune && !status.is_complete;
+  const bool is_budget = status.is_search && !status.is_complete;
   const std::uint64_t failed = status.failed_count();
   text += summary_line("finished", fmt::format("{} of {}{}", status.done + failed,
                                                is_budget ? "at most " : "", status.total));

@@ -104,10 +104,10 @@ class Continuation {
 
   void say_extended(std::size_t kept) {
     kept -= std::min(kept, retried_.size());
-    const std::size_t all = points_of(evaluator_.input()).size();
+    const std::uint64_t all = count_of(evaluator_.input());
     said_.push_back(fmt::format("extended: {} kept, {} to run",
                                 kept == 1 ? "1 row is" : fmt::format("{} rows are", kept),
-                                all - std::min(all, kept)));
+                                all - std::min<std::uint64_t>(all, kept)));
   }
 
   void say_moved() {

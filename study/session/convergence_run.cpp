@@ -3,13 +3,12 @@
 #include "study/converge/convergence_tables.h"
 #include "study/converge/judge_convergence.h"
 #include "study/converge/write_convergence.h"
-#include "study/session/study_points.h"
 
 namespace linkstudy {
 
 convergence::Convergence run_convergence(StudySession& session) {
   const Evaluator& evaluator = session.evaluator();
-  session.evaluate(points_of(evaluator.input()));
+  session.evaluate_design();
   const StudyRecord& record = session.record();
   const auto find_histories = [&](std::uint64_t id, const std::string& load_case) {
     return find_traces(record.results(), id, load_case);

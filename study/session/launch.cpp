@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <spdlog/sinks/basic_file_sink.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstring>
 
@@ -279,7 +280,10 @@ class Launch {
     }
     if (!written_text().empty()) log_->info("{} on rank 0", written_text());
     log_->info("exit code {}", code);
-    if ((session_ && session_->is_abandoned()) || !pool.close()) pool.leave_now(code);
+    if ((session_ && session_->is_abandoned()) || !pool.close()) {
+      // Of a queue that goes no further the rest is left.
+      pool.leave_now(options_.is_part ? std::max(code, kExitResumable) : code);
+    }
     return code;
   }
 

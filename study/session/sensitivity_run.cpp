@@ -3,13 +3,12 @@
 #include "study/sensitivity/judge_sensitivity.h"
 #include "study/sensitivity/sensitivity_tables.h"
 #include "study/sensitivity/write_sensitivity.h"
-#include "study/session/study_points.h"
 
 namespace linkstudy {
 
 sensitivity::Sensitivity run_sensitivity(StudySession& session) {
   const Evaluator& evaluator = session.evaluator();
-  session.evaluate(points_of(evaluator.input()));
+  session.evaluate_design();
   sensitivity::Sensitivity result = sensitivity::judge_sensitivity(
       evaluator.input(), evaluator.responses(), session.record().evaluations());
   session.record().set_answer(AnswerKind::sensitivity, sensitivity::write_json(result),

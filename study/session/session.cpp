@@ -6,6 +6,8 @@
 #include <limits>
 
 #include "core/base/isa.h"
+#include "study/config/case_selection.h"
+#include "study/design/design.h"
 #include "study/evaluate/form_packs.h"
 #include "study/record/bytes.h"
 #include "study/report/console.h"
@@ -17,6 +19,10 @@ namespace linkstudy {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+// Points of a stretch: so many that what ranks wait for each other at its end is nothing beside it.
+constexpr std::uint64_t kLeastStretch = 1 << 16;
+constexpr std::uint64_t kPacksOfRank = 64;
 
 std::vector<WholeEvaluation> evaluations_of(const TaskResult& task,
                                             const std::vector<Point>& pack) {
@@ -94,6 +100,21 @@ void StudySession::evaluate(const std::vector<Point>& points) {
 std::vector<std::vector<Point>> StudySession::sorted(std::vector<std::vector<Point>> packs) {
   if (packs.size() > 1) sort_by_cost(packs, costs_);
   return packs;
+}
+
+void StudySession::evaluate_design() {
+  const DesignOptions& design = evaluator_.input().design;
+  const std::vector<Axis> axes = axes_of(evaluator_.input());
+  const std::uint64_t all = count_points(design, axes);
+  const auto lanes = static_cast<std::uint64_t>(simd_level().lanes * pool_.ranks());
+  const std::uint64_t length = std::max(kLeastStretch, lanes * kPacksOfRank);
+  for (std::uint64_t begin = 0; begin < all; begin += length) {
+    std::vector<Point> points;
+    for (std::uint64_t id = begin; id < std::min(all, begin + length); ++id) {
+      points.push_back(make_point(design, axes, id));
+    }
+    evaluate(points);
+  }
 }
 
 std::vector<Point> StudySession::missing_of(const std::vector<Point>& points) const {
@@ -193,6 +214,7 @@ void StudySession::warn(const Evaluation& evaluation) {
 
 void StudySession::take(Evaluation taken) {
   warn(taken);
+  taken.warnings = {};  // as long as all the rest of a row, and said
   const Evaluation& evaluation = record_.add(std::move(taken));
   log_.debug("evaluation {}: {} in {:.3g} s on rank {}", evaluation.point.id,
              name_of(evaluation.status), evaluation.wall_s, evaluation.rank);

@@ -35,6 +35,9 @@ class StudySession {
   // the lanes of the ranks, and records each by itself. Throws Interrupted and TooManyFailures with
   // everything journalled.
   void evaluate(const std::vector<Point>& points);
+  // The same of all points of the design, a stretch at a time: those of a large one would take more
+  // memory than their results.
+  void evaluate_design();
 
   // From the pool's clock.
   void tick();

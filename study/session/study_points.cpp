@@ -1,5 +1,7 @@
 #include "study/session/study_points.h"
 
+#include <malloc.h>
+
 #include "study/calibrate/fit_setup.h"
 #include "study/config/case_selection.h"
 #include "study/config/input_error.h"
@@ -22,6 +24,15 @@ std::vector<Value> first_point(const StudyInput& input) {
     return lows;
   }
   return make_point(input.design, axes_of(input), 0).values;
+}
+
+// Text and trees of many values, read and judged, are holes in the heap; C++ does not ask for them
+// to be given back.
+void give_back_memory(const StudyInput& input) {
+  constexpr std::size_t kMany = 10000;
+  std::size_t values = 0;
+  for (const VaryInput& vary : input.vary) values += vary.values.size();
+  if (values > kMany) malloc_trim(0);
 }
 
 }  // namespace
@@ -57,6 +68,7 @@ std::unique_ptr<Evaluator> make_evaluator(const StudyInput& input, Diagnostics& 
   }
   if (evaluator && input.kind == FileKind::calibrate) check_calibration(*evaluator, diagnostics);
   if (evaluator) evaluator->set_timeout(input.run.timeout.value_or(0.0));
+  give_back_memory(input);
   return evaluator;
 }
 

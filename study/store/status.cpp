@@ -25,7 +25,7 @@ std::optional<double> time_left(const JournalContents& contents, const StudyStat
          static_cast<double>(contents.evaluations_since_start);
 }
 
-// A tune is complete with its answer; how many evaluations that takes shows only then.
+// A search is complete with its answer; how many evaluations that takes shows only then.
 bool has_answer(const JournalContents& contents) {
   return std::ranges::any_of(
       contents.texts, [](const NamedText& text) { return answer_kind_of(text).has_value(); });
@@ -34,9 +34,10 @@ bool has_answer(const JournalContents& contents) {
 void find_total(const JournalContents& contents, StudyStatus& status) {
   const std::uint64_t finished = status.done + status.failed_count();
   status.total = contents.provenance.back().total;
-  status.is_tune = contents.description && contents.description->kind == "tune";
-  status.is_complete = status.is_tune ? has_answer(contents) : finished >= status.total;
-  if (status.is_tune && status.is_complete) status.total = finished;
+  const std::string kind = contents.description ? contents.description->kind : "";
+  status.is_search = kind == "tune" || kind == "calibrate";
+  status.is_complete = status.is_search ? has_answer(contents) : finished >= status.total;
+  if (status.is_search && status.is_complete) status.total = finished;
 }
 
 }  // namespace

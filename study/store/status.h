@@ -12,9 +12,9 @@
 namespace linkstudy {
 
 struct StudyStatus {
-  // Evaluations in the design; of a tune its budget, and what it took once it has its answer.
+  // Evaluations in the design; of a search its budget, and what it took once it has its answer.
   std::uint64_t total = 0;
-  bool is_tune = false;
+  bool is_search = false;  // a tune or a calibration
   bool is_complete = false;
   std::uint64_t done = 0;  // ended ok
   std::map<Cause, std::uint64_t> failed;
@@ -25,7 +25,7 @@ struct StudyStatus {
   double last_write_age_s = 0.0;
   std::string dropped;  // dropped_text of a study that does not run
   // Time left at the rate of the latest start: (total - finished) (t_last_write - t_start) / n,
-  // n the evaluations since that start: of a tune the most it can be. Empty before the first one.
+  // n the evaluations since that start: of a search the most it can be. Empty before the first one.
   std::optional<double> eta_s;
 
   std::uint64_t failed_count() const;

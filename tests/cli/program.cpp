@@ -57,7 +57,8 @@ pid_t Program::start(const std::vector<std::string>& arguments) const {
   if (child != 0) return child;
   if (chdir(directory_.c_str()) != 0) _exit(99);
   const std::string log = (directory_ / ".streams/log").string();
-  if (!std::freopen(log.c_str(), "w", stdout) || !std::freopen(log.c_str(), "w", stderr)) _exit(98);
+  std::filesystem::remove(log);
+  if (!std::freopen(log.c_str(), "a", stdout) || !std::freopen(log.c_str(), "a", stderr)) _exit(98);
   std::vector<std::string> words = {kProgram};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> pointers;

@@ -62,7 +62,15 @@ expect_75 "the first Ctrl-C"
 LINKSTUDY=$program "$script" study "$dir/short.toml" "$dir/finish" >"$dir/out" 2>"$dir/err" ||
   fail "the same command does not go on"
 grep -q "^results digest: " "$dir/out" || fail "no digest at the end"
+mkdir "$dir/folder"; cp "$dir/model.toml" "$dir/folder"
+write_study folder/short.toml 20.0
+LINKSTUDY=$program "$script" queue "$dir/folder" --json >"$dir/out" 2>"$dir/err" ||
+  fail "a folder is not run"
+grep -q '"state":"done".*"digest":"'"$("$program" status "$dir/finish" --json |
+  sed -n 's/.*"digest":"\([0-9a-f]*\)".*/\1/p')"'"' "$dir/out" || fail "another digest in a folder"
+"$script" queue 2>"$dir/err" && fail "a folder that is not named"
+grep -q "queue FOLDER" "$dir/err" || fail "no usage"
 LINKSTUDY=$dir/nowhere "$script" study "$dir/short.toml" "$dir/none" 2>"$dir/err"
 [ $? -eq 2 ] && grep -q "there is no program $dir/nowhere" "$dir/err" ||
   fail "a missing program is not named"
-echo "ok: goes on, and names a program that is missing"
+echo "ok: goes on, runs a folder, and names a program that is missing"

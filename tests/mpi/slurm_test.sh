@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The batch script on a real Slurm: a controller and two nodes on this machine, with keys, ports and
 # folders of their own, all gone at the end. Waits for states, never for times.
-# Time: one to two minutes. Exit code 77 where there is no Slurm or no right to start one.
+# Time: two minutes. Exit code 77 where there is no Slurm or no right to start one.
 # usage: slurm_test.sh LINKSTUDY TREE
 set -u
 program=$(readlink -f "$1"); tree=$(readlink -f "$2")
@@ -226,6 +226,50 @@ exits_with "$long" 0 || fail "the requeued job ends with another code than 0"
 [ "results digest: $(digest_of long)" = "$whole" ] || fail "another digest than without Slurm"
 "$program" status "$dir/long" --json | grep -q '"state":"complete"' || fail "not complete"
 echo "ok: interrupted, a node lost, requeued twice: the digest of the undisturbed run"
+
+# A folder of four files on two nodes, interrupted.
+write_folder() {  # FOLDER
+  mkdir "$dir/$1"
+  cp "$dir/model.toml" "$dir/$1"
+  for name in a b c d; do write_study "$1/$name.toml" 100.0; done
+}
+are_whole() {  # FOLDER
+  for name in a b c d; do
+    [ "results digest: $(digest_of "$1/results/$name")" = "$part" ] ||
+      fail "$1/$name: another digest"
+  done
+}
+begins() { cat "$dir/$1".out 2>/dev/null | grep -c " begins$"; }
+write_folder folder
+write_folder shared
+part=$("$program" study "$dir/folder/a.toml" -o "$dir/part" --progress none 2>/dev/null | tail -n 1)
+queue=$(submit queue -N 2 -n 3 --time 5 "$script" queue "$dir/folder")
+wait_until "something of the second file is done" has_finished folder/results/b 1
+scancel -b -s USR1 "$queue"
+wait_until "the queue is requeued" is_requeued "$queue" 1
+says queue "exit code 75, resumable: job $queue goes back" || fail "not requeued by the script"
+wait_until "the queue ends" is_over "$queue"
+exits_with "$queue" 0 || fail "the requeued queue ends with another code than 0"
+are_whole folder
+[ "$(grep -c "a begins" "$dir/queue.out")" -eq 1 ] || fail "a file that has ended is run again"
+echo "ok: a folder on two nodes, requeued: the digests of undisturbed runs"
+
+# Two tasks of an array share a folder, and one of them is requeued without the other.
+array=$(submit "shared_%a" --array=1-2 -n 2 --time 5 "$script" queue "$dir/shared")
+both_work() { has_finished shared/results/a 1 && has_finished shared/results/b 1; }
+wait_until "both tasks have a file" both_work
+scancel -b -s USR1 "${array}_2"
+wait_until "one task is requeued" is_requeued "${array}_2" 1
+for task in "${array}_1" "${array}_2"; do
+  wait_until "task $task ends" is_over "$task"
+  exits_with "$task" 0 || fail "task $task ends with another code than 0"
+done
+[ "$(restarts_of "${array}_1")" -eq 0 ] || fail "the other task is requeued, too"
+are_whole shared
+one=$(begins shared_1); two=$(begins shared_2)
+[ "$one" -gt 0 ] && [ "$two" -gt 0 ] || fail "one task did all"
+[ $((one + two)) -eq 5 ] || fail "a file is run twice"
+echo "ok: an array shares a folder, each task is requeued by itself"
 
 wait_until "the job of a minute is requeued before its limit" is_requeued "$limited" 1
 scancel "$limited"

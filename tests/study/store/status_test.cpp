@@ -125,23 +125,29 @@ TEST_F(Status, Time_left_goes_by_the_latest_start) {
   EXPECT_EQ(summarize_status(contents, 5008.0, 5011.0).eta_s, 0.0);
 }
 
-TEST_F(Status, Of_a_tune_counts_to_its_budget_until_it_has_its_answer) {
-  JournalContents contents;
-  contents.description = sample::results().description;
-  contents.description->kind = "tune";
-  for (std::uint64_t id = 0; id < 20; ++id) contents.evaluations.push_back(sample::evaluation(id));
-  contents.provenance = {{"start", 100.0, 200, 1, "", "", "", ""}};
-  contents.evaluations_since_start = 20;
-  StudyStatus status = summarize_status(contents, 140.0, 141.0);
-  EXPECT_EQ(status.total, 200u);
-  EXPECT_FALSE(status.is_complete);
-  ASSERT_TRUE(status.eta_s);
-  EXPECT_DOUBLE_EQ(*status.eta_s, 360.0);  // 20 in 40 s, 180 left
-  contents.texts.push_back({"tuning/lowest", "{}"});
-  status = summarize_status(contents, 140.0, 141.0);
-  EXPECT_TRUE(status.is_complete);
-  EXPECT_EQ(status.total, 20u);
-  EXPECT_EQ(status.eta_s, 0.0);
+TEST_F(Status, Of_a_search_counts_to_its_budget_until_it_has_its_answer) {
+  const std::map<std::string, std::string> answers = {{"tune", "tuning/lowest"},
+                                                      {"calibrate", "calibration/calibration"}};
+  for (const auto& [kind, answer] : answers) {
+    JournalContents contents;
+    contents.description = sample::results().description;
+    contents.description->kind = kind;
+    for (std::uint64_t id = 0; id < 20; ++id) {
+      contents.evaluations.push_back(sample::evaluation(id));
+    }
+    contents.provenance = {{"start", 100.0, 200, 1, "", "", "", ""}};
+    contents.evaluations_since_start = 20;
+    StudyStatus status = summarize_status(contents, 140.0, 141.0);
+    EXPECT_EQ(status.total, 200u);
+    EXPECT_FALSE(status.is_complete);
+    ASSERT_TRUE(status.eta_s);
+    EXPECT_DOUBLE_EQ(*status.eta_s, 360.0);  // 20 in 40 s, 180 left
+    contents.texts.push_back({answer, "{}"});
+    status = summarize_status(contents, 140.0, 141.0);
+    EXPECT_TRUE(status.is_complete) << kind;
+    EXPECT_EQ(status.total, 20u);
+    EXPECT_EQ(status.eta_s, 0.0);
+  }
 }
 
 TEST_F(Status, Of_no_study_is_an_error_that_says_so) {
