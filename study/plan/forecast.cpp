@@ -32,7 +32,8 @@ class Layouts {
       const std::vector<Point> batch(work_.points.begin() + static_cast<std::ptrdiff_t>(i),
                                      work_.points.begin() + static_cast<std::ptrdiff_t>(end));
       std::vector<double> seconds;
-      for (const auto& pack : form_packs(batch, study_.parameters(), lanes_, ranks)) {
+      const int width = pack_width(study_, batch.front(), lanes_);
+      for (const auto& pack : form_packs(batch, study_.parameters(), width, ranks)) {
         ++layout.packs;
         layout.widest = std::max(layout.widest, pack.size());
         seconds.push_back(costs_ == nullptr ? 0.0 : costs_->slowdown(ranks) * costs_->pack_s(pack));

@@ -91,8 +91,10 @@ StudySession::StudySession(const SessionOptions& options, Evaluator& evaluator, 
 void StudySession::evaluate(const std::vector<Point>& points) {
   check_failures();
   const std::vector<Point> missing = take_known(missing_of(points));
+  if (missing.empty()) return;
   const auto& parameters = evaluator_.parameters();
-  run_packs(sorted(form_packs(missing, parameters, simd_level().lanes, pool_.ranks())));
+  const int width = pack_width(evaluator_, missing.front(), simd_level().lanes);
+  run_packs(sorted(form_packs(missing, parameters, width, pool_.ranks())));
   // What failed outside the evaluations (no memory, a message over its limit) may do alone.
   run_packs(sorted(form_packs(missing_of(missing), parameters, 1, pool_.ranks())));
 }
