@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <chrono>
 #include <limits>
+#include <stdexcept>
 
 #include "core/base/isa.h"
 #include "study/evaluate/derived_damping.h"
 #include "study/evaluate/evaluator.h"
+#include "study/evaluate/sample_memory.h"
 #include "study/metrics/invalid_point.h"
 
 namespace linkstudy {
@@ -73,6 +75,22 @@ class Stopwatch {
   Clock::time_point begin_ = Clock::now();
 };
 
+// In their order, each part with no more samples than there may be at once.
+std::vector<CaseGroup> split_by_memory(const CaseGroup& group) {
+  std::vector<CaseGroup> parts;
+  double bytes = 0.0;
+  for (PreparedCase* item : group) {
+    const double own = sample_bytes(item->metrics.observers());
+    bytes += own;
+    if (parts.empty() || bytes > most_sample_bytes()) {
+      parts.emplace_back();
+      bytes = own;
+    }
+    parts.back().push_back(item);
+  }
+  return parts;
+}
+
 template <class Item>
 void append(std::vector<Item>& all, std::vector<Item>& more) {
   all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
@@ -134,7 +152,7 @@ void Evaluator::attempt(std::size_t first, std::size_t last, std::span<Attempt> 
     std::erase_if(group, [&](const PreparedCase* item) {
       return !attempts[item->point].goes_on(item->load_case);
     });
-    if (!group.empty()) run_group(group, attempts);
+    for (const CaseGroup& part : split_by_memory(group)) run_group(part, attempts);
   }
 }
 
@@ -186,6 +204,8 @@ std::unique_ptr<PreparedCase> Evaluator::prepare_case(std::size_t load_case, std
   const StudySignals signals =
       require_signals(input_, preparation.model.mechanism, measured.set.get());
   RunMetrics metrics(input_, signals, input.options, record, like, measured);
+  const std::string refused = refuse_samples(sample_bytes(metrics.observers()));
+  if (!refused.empty()) throw std::runtime_error(refused);
   const KnownLimit limit = find_known_limit(preparation, record);
   return std::unique_ptr<PreparedCase>(new PreparedCase{load_case, point, input.options,
                                                         std::move(preparation), std::move(metrics),

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "study/config/precedence.h"
+#include "study/evaluate/sample_memory.h"
 #include "study/evaluate/step_sharing.h"
 #include "study/metrics/cycle.h"
 
@@ -137,6 +138,8 @@ class ReferenceRun {
     grid_ = make_step_grid(model_.options);
     observers_ = make_observers(input_, signals_, all, grid_, model_.options.output_interval);
     watch_.emplace(input_, signals_, grid_, observers_);
+    const std::string refused = refuse_samples(sample_bytes(observers_));
+    if (!refused.empty()) fail(load_case, Cause::exception, refused);
   }
   ReferenceRun(const ReferenceRun&) = delete;
   ReferenceRun& operator=(const ReferenceRun&) = delete;

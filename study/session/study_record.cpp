@@ -1,6 +1,7 @@
 #include "study/session/study_record.h"
 
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <algorithm>
 #include <cctype>
@@ -251,6 +252,8 @@ void StudyRecord::write_if_due() {
   const auto begin = Clock::now();
   if (begin < next_write_) return;
   write(RunStatus::running);
+  results_.evaluations = {};  // until they are written again, one copy is enough
+  malloc_trim(0);
   const auto end = Clock::now();
   next_write_ = end + std::max<Clock::duration>(kFirstWrite, kWriteShare * (end - begin));
 }
