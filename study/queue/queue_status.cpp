@@ -98,6 +98,8 @@ EntryStatus read_status(const Entry& entry) {
   } else if (status.record) {
     status.state =
         status.record->end ? state_of(status.record->end->exit_code) : EntryState::interrupted;
+  } else if (status.study) {
+    status.state = EntryState::interrupted;  // killed while it wrote its record
   }
   return status;
 }
