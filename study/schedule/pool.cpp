@@ -20,7 +20,7 @@ using std::chrono::milliseconds;
 // Tasks longer than this are never queued behind another: an unlucky one would wait for it.
 constexpr double kQueueBelowS = 10e-3;
 // Work queued in front of a rank covers this much, some polls of both sides.
-constexpr double kQueuedWorkS = 8e-3;
+constexpr double kQueuedWorkS = 16e-3;
 constexpr double kPollsOfQueue = 4.0;
 // From so many on, the work of rank 0 is a small part of all.
 constexpr int kManyRanks = 16;
@@ -239,7 +239,7 @@ void Pool::wait(Run& run, Clock::time_point& next_tick) {
     if (outstanding_[0] == 0) feed(run, 0);  // it may have time again
     next_tick = Clock::now() + kTickInterval;
   }
-  thread_.wait_for_result(find_pause());
+  thread_.wait_for_result(find_pause(run));
 }
 
 void Pool::watch_ranks(Run& run) {
@@ -285,15 +285,14 @@ void Pool::lose(Run& run, int rank) {
   for (int other = 0; other < transport_.size(); ++other) feed(run, other);
 }
 
-// Short against a task, or the work that is queued, so that an answered rank is not kept waiting;
-// alone there is only the stop level to look at.
-microseconds Pool::find_pause() const {
+// Short against a task, or the work that is queued while there is more to hand out, so that an
+// answered rank is not kept waiting; alone there is only the stop level to look at.
+microseconds Pool::find_pause(const Run& run) const {
   if (is_alone()) return milliseconds(20);
-  const bool is_queued = mean_seconds_ >= 0.0 && mean_seconds_ <= kQueueBelowS;
-  const double work_s = is_queued
-                            ? std::min(kQueuedWorkS, kMostQueued * mean_seconds_) / kPollsOfQueue
-                            : mean_seconds_ / 50.0;
-  const double seconds = std::clamp(work_s, 100e-6, 2e-3);
+  const bool is_fed = run.next < run.tasks.size();
+  const double behind = is_fed ? static_cast<double>(find_depth(run) - 1) : 0.0;
+  const double work_s = mean_seconds_ * std::max(behind / kPollsOfQueue, 1.0 / 50.0);
+  const double seconds = std::clamp(work_s, 100e-6, behind > 0.0 ? 4e-3 : 2e-3);
   return microseconds(static_cast<int>(seconds * 1e6));
 }
 

@@ -140,7 +140,7 @@ class Pool {
   void lose(Run& run, int rank);
   void say_lost(int rank, std::size_t tasks);
   bool goes_on();
-  std::chrono::microseconds find_pause() const;
+  std::chrono::microseconds find_pause(const Run& run) const;
   void send_all(Tag tag, const std::string& bytes);
   void note_message(Run* run, Message message);
   bool has_left(int rank) const;
