@@ -45,9 +45,8 @@ std::string text_of(const CommandLine& line, const std::vector<queue::EntryStatu
   return line.json ? queue::status_json(entries) : queue::status_text(entries, output_width());
 }
 
-int run_queue_status(const CommandLine& line) {
+int run_queue_status(const CommandLine& line, queue::Folder& folder) {
   const char* begin = line.watch && isatty(STDOUT_FILENO) != 0 ? "\x1b[H\x1b[J" : "";
-  queue::Folder folder(line.inputs.front());
   while (true) {
     const std::vector<queue::EntryStatus> entries = queue::read_status(folder);
     print_out(begin + text_of(line, entries));
@@ -60,7 +59,7 @@ int run_queue_status(const CommandLine& line) {
 
 int run_status(const CommandLine& line) {
   require(!line.watch || !line.json, "--watch is for people: --json tells the state once");
-  if (queue::is_queue(line.inputs.front())) return run_queue_status(line);
+  if (auto folder = queue::find_queue(line.inputs.front())) return run_queue_status(line, *folder);
   if (line.watch) return watch(line);
   const StudyStatus status = read_and_warn(line);
   print_out(line.json ? status_json(status) : status_text(status));

@@ -48,20 +48,18 @@ int pack_width(const Evaluator& evaluator, const Point& first, int lanes) {
   }
 }
 
+std::size_t pack_size(std::size_t count, int width, int ranks) {
+  const auto shares = static_cast<std::size_t>(std::max(1, ranks));
+  return std::clamp((count + shares - 1) / shares, std::size_t{1}, static_cast<std::size_t>(width));
+}
+
 std::vector<std::vector<Point>> form_packs(const std::vector<Point>& points,
                                            const std::vector<Parameter>& parameters, int width,
                                            int ranks) {
-  const std::size_t of_rank = (points.size() + static_cast<std::size_t>(ranks) - 1) /
-                              static_cast<std::size_t>(std::max(1, ranks));
-  const std::size_t most = std::clamp(of_rank, std::size_t{1}, static_cast<std::size_t>(width));
+  const std::size_t size = pack_size(points.size(), width, ranks);
   std::vector<std::vector<Point>> packs;
-  for (const std::vector<Point>& kind : sort_by_kind(points, parameters)) {
-    for (std::size_t i = 0; i < kind.size(); i += most) {
-      const auto begin = kind.begin() + static_cast<std::ptrdiff_t>(i);
-      packs.emplace_back(begin,
-                         begin + static_cast<std::ptrdiff_t>(std::min(most, kind.size() - i)));
-    }
-  }
+  for (const std::vector<Point>& kind : sort_by_kind(points, parameters))
+    for (std::vector<Point>& pack : split(kind, size)) packs.push_back(std::move(pack));
   return packs;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "study/evaluate/form_packs.h"
 #include "study/plan/at_once.h"
 #include "study/plan/pull_schedule.h"
 
@@ -147,15 +148,9 @@ double Costs::run_s(std::size_t kind, std::size_t count) const {
 
 Costs::References Costs::references(int ranks) const {
   References all;
-  if (references_s_.empty()) return all;
-  const std::size_t count = references_s_.size();
-  const auto of_rank =
-      (count + static_cast<std::size_t>(ranks) - 1) / static_cast<std::size_t>(ranks);
-  const std::size_t width = std::min(of_rank, static_cast<std::size_t>(lanes_));
   std::vector<double> tasks;
-  for (std::size_t i = 0; i < count; i += width) {
-    const std::span<const double> together =
-        std::span(references_s_).subspan(i, std::min(width, count - i));
+  const std::size_t size = pack_size(references_s_.size(), lanes_, ranks);
+  for (const std::vector<double>& together : split(references_s_, size)) {
     const double alone = std::accumulate(together.begin(), together.end(), 0.0);
     const double beside = *std::ranges::max_element(together) / kAloneOverBeside;
     tasks.push_back(slowdown(ranks) * std::min(alone, beside));

@@ -18,8 +18,7 @@ constexpr double kProbeS = 0.5;
 std::uint64_t count_finished(const Entry& entry) {
   std::error_code failed;
   if (!std::filesystem::exists(entry.results / kJournalName, failed)) return 0;
-  const StudyStatus status = linkstudy::read_status(entry.results);
-  return status.done + status.failed_count();
+  return linkstudy::read_status(entry.results).finished();
 }
 
 }  // namespace

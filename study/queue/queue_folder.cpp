@@ -124,10 +124,14 @@ std::optional<FileKind> Folder::kind_of(const Entry& entry) {
   return known.kind;
 }
 
-bool is_queue(const fs::path& directory) {
+std::optional<Folder> find_queue(const fs::path& directory) {
   std::error_code failed;
-  if (!fs::is_directory(directory, failed) || fs::exists(directory / kJournalName)) return false;
-  return !Folder(directory).entries().empty();
+  if (!fs::is_directory(directory, failed) || fs::exists(directory / kJournalName)) {
+    return std::nullopt;
+  }
+  Folder folder(directory);
+  if (folder.entries().empty()) return std::nullopt;
+  return folder;
 }
 
 std::optional<EntryRecord> read_record(const Entry& entry) {

@@ -47,8 +47,8 @@ class Folder {
   std::map<std::string, Known> known_;
 };
 
-// Whether a directory is a queue and no results of one study.
-bool is_queue(const std::filesystem::path& directory);
+// Nothing where a directory is no queue, or the results of one study.
+std::optional<Folder> find_queue(const std::filesystem::path& directory);
 
 struct EntryEnd {
   int exit_code = 0;

@@ -33,13 +33,6 @@ std::optional<StudyStatus> read_study(const Entry& entry) {
   }
 }
 
-std::string finished_text(const EntryStatus& one) {
-  if (!one.study) return "-";
-  const std::uint64_t finished = one.study->done + one.study->failed_count();
-  const bool is_budget = one.study->is_search && !one.study->is_complete;
-  return fmt::format("{} of {}{}", finished, is_budget ? "at most " : "", one.study->total);
-}
-
 // Of one that runs, what is left; of one that has ended, what its last start took.
 std::string time_text(const EntryStatus& one) {
   if (one.state == EntryState::running) {
@@ -125,7 +118,9 @@ Table status_table(const std::vector<EntryStatus>& entries) {
   });
   add("state", "how far it is",
       [](const EntryStatus& one) { return std::string(name_of(one.state)); });
-  add("finished", "evaluations", finished_text);
+  add("finished", "evaluations", [](const EntryStatus& one) {
+    return one.study ? finished_text(*one.study) : std::string("-");
+  });
   add("failed", "evaluations", [](const EntryStatus& one) {
     return one.study ? static_cast<std::int64_t>(one.study->failed_count()) : std::int64_t{0};
   });

@@ -29,7 +29,7 @@ std::string status_json(const StudyStatus& status) {
   nlohmann::ordered_json json = {{"state", state_of(status)},
                                  {"total", status.total},
                                  {"done", status.done},
-                                 {"finished", status.done + status.failed_count()},
+                                 {"finished", status.finished()},
                                  {"failed", failed},
                                  {"references", status.references},
                                  {"running", status.running},
@@ -40,12 +40,15 @@ std::string status_json(const StudyStatus& status) {
   return json.dump() + "\n";
 }
 
+std::string finished_text(const StudyStatus& status) {
+  const bool is_budget = status.is_search && !status.is_complete;
+  return fmt::format("{} of {}{}", status.finished(), is_budget ? "at most " : "", status.total);
+}
+
 std::string status_text(const StudyStatus& status) {
   std::string text = summary_line("state", state_text(status));
   const bool is_budget = status.is_search && !status.is_complete;
-  const std::uint64_t failed = status.failed_count();
-  text += summary_line("finished", fmt::format("{} of {}{}", status.done + failed,
-                                               is_budget ? "at most " : "", status.total));
+  text += summary_line("finished", finished_text(status));
   text += summary_line("ok", fmt::format("{}", status.done));
   for (const auto& [cause, count] : status.failed) {
     text += summary_line("failed", fmt::format("{} {}", count, name_of(cause)));

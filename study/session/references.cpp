@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "core/base/isa.h"
+#include "study/evaluate/form_packs.h"
 #include "study/evaluate/reference_bytes.h"
 #include "study/record/bytes.h"
 #include "study/session/interrupted.h"
@@ -59,22 +60,6 @@ void visit_members(auto& archive, Like<ReferenceAnswer> auto& answer) {
   archive(answer.message, answer.records);
 }
 
-// As wide as fills the lanes when every rank has some.
-std::vector<std::vector<std::size_t>> form_tasks(const std::vector<std::size_t>& load_cases,
-                                                 int ranks) {
-  const auto count = static_cast<std::size_t>(ranks);
-  const std::size_t of_rank = (load_cases.size() + count - 1) / count;
-  const std::size_t width =
-      std::clamp(of_rank, std::size_t{1}, static_cast<std::size_t>(simd_level().lanes));
-  std::vector<std::vector<std::size_t>> tasks;
-  for (std::size_t i = 0; i < load_cases.size(); i += width) {
-    const auto begin = load_cases.begin() + static_cast<std::ptrdiff_t>(i);
-    const std::size_t size = std::min(width, load_cases.size() - i);
-    tasks.emplace_back(begin, begin + static_cast<std::ptrdiff_t>(size));
-  }
-  return tasks;
-}
-
 // What could not be sent (over 2 GiB), or a rank had no memory for, is made here.
 ReferenceAnswer answer_of(const TaskResult& result, const std::string& task, Evaluator& evaluator) {
   return from_bytes<ReferenceAnswer>(result.failed ? run_reference_task(evaluator, task)
@@ -120,7 +105,8 @@ std::string run_reference_task(Evaluator& evaluator, const std::string& task) {
 
 void run_references(const std::vector<std::size_t>& load_cases, Evaluator& evaluator,
                     StudyRecord& record, KnownRows& known, Pool& pool, spdlog::logger& log) {
-  const std::vector<std::vector<std::size_t>> packs = form_tasks(load_cases, pool.ranks());
+  const auto packs =
+      split(load_cases, pack_size(load_cases.size(), simd_level().lanes, pool.ranks()));
   std::vector<std::string> tasks;
   for (const std::vector<std::size_t>& pack : packs) {
     tasks.push_back(to_bytes(std::vector<std::uint64_t>(pack.begin(), pack.end())));
@@ -140,7 +126,8 @@ void run_references(const std::vector<std::size_t>& load_cases, Evaluator& evalu
       KnownReference& made = answer.records.at(k);
       warn(title_of(evaluator, pack[k]), made.warnings, log);
       known.keep_reference(pack[k], made);
-      take_bytes(evaluator, pack[k], made.bytes, log);
+      if (evaluator.known_reference(pack[k]) == nullptr)
+        take_bytes(evaluator, pack[k], made.bytes, log);
       keep(evaluator, pack[k], std::move(made.bytes), record, log);
       log.info("{} took {:.3g} s on rank {}", title_of(evaluator, pack[k]),
                result.seconds / static_cast<double>(pack.size()), result.rank);

@@ -19,7 +19,7 @@ std::optional<double> time_left(const JournalContents& contents, const StudyStat
                                 double last_write_unix_s) {
   if (status.is_complete) return 0.0;
   if (contents.evaluations_since_start == 0) return std::nullopt;
-  const std::uint64_t finished = std::min(status.done + status.failed_count(), status.total);
+  const std::uint64_t finished = std::min(status.finished(), status.total);
   const double elapsed = std::max(0.0, last_write_unix_s - contents.provenance.back().time_unix_s);
   return static_cast<double>(status.total - finished) * elapsed /
          static_cast<double>(contents.evaluations_since_start);
@@ -32,7 +32,7 @@ bool has_answer(const JournalContents& contents) {
 }
 
 void find_total(const JournalContents& contents, StudyStatus& status) {
-  const std::uint64_t finished = status.done + status.failed_count();
+  const std::uint64_t finished = status.finished();
   status.total = contents.provenance.back().total;
   const std::string kind = contents.description ? contents.description->kind : "";
   status.is_search = kind == "tune" || kind == "calibrate";

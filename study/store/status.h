@@ -29,6 +29,7 @@ struct StudyStatus {
   std::optional<double> eta_s;
 
   std::uint64_t failed_count() const;
+  std::uint64_t finished() const { return done + failed_count(); }
 };
 
 StudyStatus read_status(const std::filesystem::path& directory);
