@@ -239,10 +239,10 @@ class Launch {
   }
 
   void say_lost(const LostRank& lost) {
-    const std::string text =
-        fmt::format("rank {} is lost: {} for {:.0f} s; its {} tasks go elsewhere", lost.rank,
-                    lost.answers ? "it answers, but its work stands still" : "no sign of life",
-                    lost.silence_s, lost.tasks);
+    std::string text = fmt::format(
+        "rank {} is lost: {} for {:.0f} s", lost.rank,
+        lost.answers ? "it answers, but its work stands still" : "no sign of life", lost.silence_s);
+    if (lost.tasks > 0) text += fmt::format("; tasks that go elsewhere: {}", lost.tasks);
     fmt::print(stderr, "linkstudy: {}\n", text);
     log_->error("{}", text);
   }
