@@ -66,7 +66,7 @@ class InsideStep {
   }
 
  private:
-  [[gnu::noinline, gnu::flatten]] void evaluate_there() {
+  [[gnu::noinline]] void evaluate_there() {
     settle_state(m_, p_, t_, y_.data(), correction_.data(), w_);
     evaluate_state(m_, p_, t_, y_.data(), w_);
   }

@@ -95,7 +95,7 @@ AdaptiveProblem LocatedRun::problem() {
   return p;
 }
 
-[[gnu::flatten]] void LocatedRun::evaluate_at(double t, const double* y) {
+void LocatedRun::evaluate_at(double t, const double* y) {
   evaluate_state(m_, p_, t, y, w_);
 }
 
@@ -153,7 +153,7 @@ void LocatedRun::fail(Cause cause) {
 }
 
 // Positions and rates only.
-[[gnu::flatten]] void LocatedRun::look_at(const double* y, Nearness* contacts) {
+void LocatedRun::look_at(const double* y, Nearness* contacts) {
   ++looks_;
   for_nearness(m_, p_, y, look_w_, [contacts](int i, double depth, double rate) {
     contacts[i] = {depth, rate};

@@ -87,18 +87,16 @@ class Run {
   }
 
   // Leaves everything in the workspace for observers.
-  [[gnu::noinline, gnu::flatten]] void differentiate_kept(double t) {
+  [[gnu::noinline]] void differentiate_kept(double t) {
     evaluate_into(w_, Real(t), y_.data(), rk_.first_slope());
   }
 
-  [[gnu::noinline, gnu::flatten]] void differentiate(Real t, Real* y, Real* slope) {
+  [[gnu::noinline]] void differentiate(Real t, Real* y, Real* slope) {
     impose_motions(m_, p_, t, y, y + m_.nq);
     evaluate_into(w_, t, y, slope);
   }
 
-  [[gnu::flatten]] void finish_step(Real t) {
-    settle_state(m_, p_, t, y_.data(), correction_.data(), w_);
-  }
+  void finish_step(Real t) { settle_state(m_, p_, t, y_.data(), correction_.data(), w_); }
 
   // Nothing happens in a step but the step itself, as far as can be said beforehand.
   bool is_quiet() const {

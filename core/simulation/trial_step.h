@@ -79,7 +79,7 @@ class TrialStep {
  private:
   [[gnu::always_inline]] int size() const { return static_cast<int>(method_.size()); }
 
-  [[gnu::noinline, gnu::flatten]] void differentiate(Real t, const Real* y, Real* slope) {
+  [[gnu::noinline]] void differentiate(Real t, const Real* y, Real* slope) {
     evaluate_state(m_, p_, min(t, last_), y, w_);
     write_slopes(m_, y, w_, slope);
   }
@@ -93,7 +93,7 @@ class TrialStep {
     drift = drift_of(m_, w_);
   }
 
-  [[gnu::noinline, gnu::flatten]] void look_at_quarters() {
+  [[gnu::noinline]] void look_at_quarters() {
     for (int k = 0; k < 3; ++k) {
       Real* quarter = quarters_.data() + 2 * k * m_.contact_count();
       const Real part(0.25 * (k + 1));
@@ -108,7 +108,7 @@ class TrialStep {
     }
   }
 
-  [[gnu::noinline, gnu::flatten]] void settle() {
+  [[gnu::noinline]] void settle() {
     const Real t = t_ + h_;
     for (int k = 0; k < size(); ++k) at(settled_, k) = method_.end()[k];
     settle_state(m_, p_, t, settled_.data(), correction_.data(), w_);
