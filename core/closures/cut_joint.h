@@ -136,22 +136,30 @@ inline auto factorize_schur(const Mechanism& m, const Parameters<Real>& p, Works
 template <class Real>
 inline void update_schur_complement(const Mechanism& m, const Parameters<Real>& p,
                                     Workspace<Real>& w) {
-  w.redundant = lane_bits(factorize_schur(m, p, w)) ^ kAllLanes<Real>;
+  const auto clear = factorize_schur(m, p, w);
   w.kept_rows = Real(static_cast<double>(m.cut_row_count()));
-  if (w.redundant == 0) return;
-  factorize_redundant_rows(m, p, w);
+  w.redundant = !clear;
+  if (!w.rows_may_depend) {
+    // Where they do, a trace says nothing.
+    lane_bits(clear);
+    w.redundant = Real(1.0) < Real(0.0);
+  }
+  if (any(w.redundant)) factorize_redundant_rows(m, p, w);
 }
 
 // schur_rhs := A^-1 schur_rhs
 template <class Real>
 inline void solve_schur(const Mechanism& m, Workspace<Real>& w) {
-  if (w.redundant != 0) take_redundant_rows(m, w);
-  if (w.redundant != kAllLanes<Real>) {
+  const auto solve = [&] {
     with_row_count(m, [&](auto nc) {
       solve_definite(nc, w.schur.data(), w.row_inverse.data(), w.schur_rhs.data());
     });
+  };
+  if (any(w.redundant)) {
+    solve_beside_redundant_rows(w, solve);
+  } else {
+    solve();
   }
-  if (w.redundant != 0) give_redundant_rows(m, w);
 }
 
 // Y^T D^-1 x for row r

@@ -10,6 +10,8 @@
 // whatever its masses.
 #pragma once
 
+#include <algorithm>
+
 #include "core/kinematics/closure_jacobian.h"
 #include "core/model/walk.h"
 
@@ -150,20 +152,6 @@ inline Real largest_gap(const Mechanism& m, const Workspace<Real>& w) {
   return gap;
 }
 
-template <class Real>
-inline void fill_redundant_system(const Mechanism& m, const Workspace<Real>& w, int i,
-                                  RedundantSystem& system) {
-  const int nv = m.nv, nc = m.cut_row_count();
-  const auto copy = [i](const auto& from, int count, double* to) {
-    for (int n = 0; n < count; ++n) to[n] = lane(at(from, n), i);
-  };
-  copy(w.row_scale, nc, system.row_scale());
-  copy(w.cut_jacobian, nc * nv, system.jacobian());
-  copy(w.cut_y, nc * nv, system.factor());
-  copy(w.velocity_scale, nv, system.column_scale());
-  copy(w.inverse_pivot, nv, system.inverse_pivot());
-}
-
 // Factors for the lanes of Workspace::redundant, and the number of their independent rows.
 // From Workspace::cut_jacobian.
 template <class Real>
@@ -173,34 +161,28 @@ inline void factorize_redundant_rows(const Mechanism& m, const Parameters<Real>&
   update_velocity_scales(m, p, w);
   const Real by_gap = Real(DriftTolerance::per_gap) * largest_gap(m, w);
   const Real tolerance = min(max(by_gap, Real(DriftTolerance::least)), Real(DriftTolerance::most));
-  for (int i = 0; i < RealTraits<Real>::lanes; ++i) {
-    if ((w.redundant >> i & 1u) == 0) continue;
-    RedundantSystem& system = at(w.redundant_systems, i);
-    fill_redundant_system(m, w, i, system);
-    set_lane(w.kept_rows, i, system.reduce(lane(tolerance, i)));
-    system.factorize();
-  }
+  RedundantSystem<Real>& system = w.redundant_system;
+  std::copy(w.row_scale.begin(), w.row_scale.end(), system.row_scale());
+  std::copy(w.cut_jacobian.begin(), w.cut_jacobian.end(), system.jacobian());
+  std::copy(w.cut_y.begin(), w.cut_y.end(), system.factor());
+  std::copy(w.velocity_scale.begin(), w.velocity_scale.end(), system.column_scale());
+  std::copy(w.inverse_pivot.begin(), w.inverse_pivot.end(), system.inverse_pivot());
+  system.reduce(tolerance);
+  system.factorize();
+  w.kept_rows = select(w.redundant, system.rank(), w.kept_rows);
 }
 
-// Solves the lanes that factorize_redundant_rows did; take keeps their right-hand sides from what
-// is done to the other lanes, give puts the multipliers in.
-template <class Real>
-inline void take_redundant_rows(const Mechanism& m, Workspace<Real>& w) {
-  for (int i = 0; i < RealTraits<Real>::lanes; ++i) {
-    if ((w.redundant >> i & 1u) == 0) continue;
-    double* b = at(w.redundant_systems, i).right_hand_side();
-    for (int r = 0; r < m.cut_row_count(); ++r) b[r] = lane(at(w.schur_rhs, r), i);
-  }
-}
-
-template <class Real>
-inline void give_redundant_rows(const Mechanism& m, Workspace<Real>& w) {
-  for (int i = 0; i < RealTraits<Real>::lanes; ++i) {
-    if ((w.redundant >> i & 1u) == 0) continue;
-    RedundantSystem& system = at(w.redundant_systems, i);
-    double* b = system.right_hand_side();
-    system.solve(b);
-    for (int r = 0; r < m.cut_row_count(); ++r) set_lane(at(w.schur_rhs, r), i, b[r]);
+// Workspace::schur_rhs becomes the multipliers: in the lanes that factorize_redundant_rows did by
+// their factors, in the others by solve_others().
+template <class Real, class Solve>
+inline void solve_beside_redundant_rows(Workspace<Real>& w, Solve&& solve_others) {
+  RedundantSystem<Real>& system = w.redundant_system;
+  std::copy(w.schur_rhs.begin(), w.schur_rhs.end(), system.right_hand_side());
+  system.solve();
+  if (!all(w.redundant)) solve_others();
+  for (const int r : indices_of(w.schur_rhs)) {
+    Real& lambda = at(w.schur_rhs, r);
+    lambda = select(w.redundant, system.right_hand_side()[r], lambda);
   }
 }
 

@@ -16,7 +16,9 @@ namespace {
 class Tracer {
  public:
   Tracer(const Mechanism& m, codegen::Graph& graph)
-      : m_(m), graph_(graph), w_(make_workspace<Traced>(m)) {}
+      : m_(m), graph_(graph), w_(make_workspace<Traced>(m)) {
+    w_.rows_may_depend = false;
+  }
 
   void trace(const Parameters<double>& sizes) {
     const Traced t = input();

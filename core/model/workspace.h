@@ -168,9 +168,9 @@ struct Workspace {
   Real supplied_power = Real(0.0);    // W
   Real dissipated_power = Real(0.0);  // W
   Real contact_power = Real(0.0);     // of it, in contacts
-  // Lanes, one bit each, whose cut rows depend on each other or nearly, so that `schur` holds no
-  // factor of theirs; and the number of independent rows, in each lane its own.
-  unsigned redundant = 0;
+  // Lanes whose cut rows depend on each other or nearly, so that `schur` holds no factor of theirs;
+  // and the number of independent rows, in each lane its own.
+  typename RealTraits<Real>::Mask redundant{};
   Real kept_rows = Real(0.0);
   unsigned jammed = 0;  // lanes whose joint friction found no balance with the reactions
   // For these lanes (core/closures/redundant_rows.h).
@@ -180,7 +180,8 @@ struct Workspace {
   std::vector<Real> independence;          // (nc, nc)
   std::vector<Real> independence_inverse;  // (nc)
   std::vector<Real> velocity_scale;        // (nv) 1 or 1/m
-  std::array<RedundantSystem, RealTraits<Real>::lanes> redundant_systems;
+  bool rows_may_depend = true;             // false in a trace that is to hold where they do not
+  RedundantSystem<Real> redundant_system;
   std::vector<SharedReactions<Real>> shared;  // one, where joint friction needs it
 };
 
@@ -262,7 +263,7 @@ Workspace<Real> make_workspace(const Mechanism& m) {
   w.row_inverse.assign(nc, Real(1.0));
   w.row_scale.assign(nc, Real(1.0));
   w.velocity_scale.assign(nv, Real(1.0));
-  for (RedundantSystem& s : w.redundant_systems) s = RedundantSystem(m.cut_row_count(), m.nv);
+  w.redundant_system = RedundantSystem<Real>(m.cut_row_count(), m.nv);
   if (!m.frictions.empty()) w.shared = make_shared_reactions<Real>(m);
   return w;
 }

@@ -16,6 +16,7 @@ NullSpaceFit::NullSpaceFit(int rows, int columns, int effects, int counted)
   for (auto* x : {&given_, &change_}) x->resize(e);
   combined_.resize(n);
   order_.resize(n);
+  exchanged_.resize(static_cast<std::size_t>(std::min(rows, columns)));
 }
 
 NullSpaceFit::NullSpaceFit() = default;
@@ -41,8 +42,11 @@ const double* NullSpaceFit::change() const {
 void NullSpaceFit::reduce(int rank) {
   std::iota(order_.begin(), order_.end(), 0);
   // What lies beyond the rank given is factorised too; it leaves R_1 and R_2 as they are.
-  const int found = factorize_pivoted(columns_, rows_, 0.0, jacobian_.data(), order_.data());
-  const int independent = std::min(rank, found);
+  const double found = factorize_pivoted(columns_, rows_, 0.0, jacobian_.data(), exchanged_.data());
+  for (std::size_t s = 0; s < exchanged_.size(); ++s) {
+    std::swap(order_[s], order_[static_cast<std::size_t>(exchanged_[s])]);
+  }
+  const int independent = std::min(rank, static_cast<int>(found));
   dimension_ = 0;
   for (int i = independent; i < rows_; ++i) {
     find_effect(independent, i, basis_.data() + dimension_ * effects_count_);
@@ -63,7 +67,7 @@ void NullSpaceFit::fit() {
 void NullSpaceFit::find_effect(int rank, int dependent, double* u) {
   const double* column = jacobian_.data() + dependent * columns_;
   std::copy(column, column + rank, combined_.begin());
-  solve_upper(columns_, rank, jacobian_.data(), combined_.data());
+  solve_upper(columns_, rank, static_cast<double>(rank), jacobian_.data(), combined_.data());
   const double* own = effects_.data() + order_.data()[dependent] * effects_count_;
   std::copy(own, own + effects_count_, u);
   for (int i = 0; i < rank; ++i) {

@@ -45,6 +45,7 @@ class NullSpaceFit {
   std::vector<double> basis_;     // (rows, effects): u_i
   std::vector<double> combined_;  // (rows) R_1^-1 R_2 of one column
   std::vector<int> order_;
+  std::vector<double> exchanged_;
 };
 
 }  // namespace linkstudy

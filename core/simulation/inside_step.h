@@ -24,6 +24,9 @@ class InsideStep {
         now_(m_, p_, w_),
         checks_(m_, p_) {}
 
+  // For a trace that is to hold where cut rows do not depend on each other.
+  void take_rows_as_clear() { w_.rows_may_depend = false; }
+
   // f(first slot, numbers, how many) of what it reads, parameters aside.
   template <class F>
   void for_read(const TrialSlots& s, F&& f) {

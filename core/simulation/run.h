@@ -111,7 +111,7 @@ class Run {
     if (m_.nz > 0 && (lane_bits(watch_.bristles_hold(bristles())) & active_) != active_)
       return false;
     written_.write_kept(w_);
-    checks_.see_rank(Real(1.0) > Real(0.0), Real(static_cast<double>(m_.cut_row_count())));
+    checks_.see_rank(Real(1.0) > Real(0.0), w_.kept_rows);
     watch_.see(step_, t, y_.data(), w_, active_);
     record_contacts(t);
     observers_.observe(step_, [this](int observer, std::size_t i, const Channel&) {

@@ -45,6 +45,7 @@ inline void for_kept_numbers(W& w, F&& f) {
   f(numbers_in<Real>(w.frictions), number_count<Real>(w.frictions));
   f(numbers_in<Real>(w.constant_frictions), number_count<Real>(w.constant_frictions));
   f(numbers_in<Real>(w.spring_weights), number_count<Real>(w.spring_weights));
+  f(&w.kept_rows, std::size_t{1});
 }
 
 }  // namespace linkstudy

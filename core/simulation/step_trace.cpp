@@ -13,7 +13,7 @@ namespace {
 class StepTracer {
  public:
   StepTracer(const Mechanism& m, const Parameters<double>& sizes, const std::vector<Known>& known,
-             codegen::Graph& graph)
+             codegen::Graph& graph, bool rows_may_depend)
       : m_(m),
         graph_(graph),
         p_(traced_parameters(graph, sizes, known, slot_)),
@@ -22,7 +22,9 @@ class StepTracer {
         y_(static_cast<std::size_t>(state_size(m))),
         correction_(static_cast<std::size_t>(m.nv)),
         contact_steps_(m.contacts.size()),
-        rk_(y_.size()) {}
+        rk_(y_.size()) {
+    w_.rows_may_depend = rows_may_depend;
+  }
 
   StepSlots trace(const std::vector<Channel>& observed) {
     StepSlots slots;
@@ -101,11 +103,12 @@ class StepTracer {
 }  // namespace
 
 StepTrace trace_step(const Mechanism& m, const Parameters<double>& sizes,
-                     const std::vector<Known>& known, const std::vector<Channel>& observed) {
+                     const std::vector<Known>& known, const std::vector<Channel>& observed,
+                     bool rows_may_depend) {
   const FlushDenormals flush;
   StepTrace step;
   const codegen::Trace tracing(step.graph);
-  step.slots = StepTracer(m, sizes, known, step.graph).trace(observed);
+  step.slots = StepTracer(m, sizes, known, step.graph, rows_may_depend).trace(observed);
   return step;
 }
 

@@ -18,7 +18,9 @@ struct StepTrace {
 
 // `known`: by number of for_parameter_numbers; `sizes`: parameters of any case. The graph writes
 // the channels observed. Throws Untraceable.
+// rows_may_depend: right for cut rows that depend on each other too, and longer by that.
 StepTrace trace_step(const Mechanism& m, const Parameters<double>& sizes,
-                     const std::vector<Known>& known, const std::vector<Channel>& observed);
+                     const std::vector<Known>& known, const std::vector<Channel>& observed,
+                     bool rows_may_depend);
 
 }  // namespace linkstudy

@@ -27,6 +27,9 @@ class TrialStep {
     static_assert(sizeof(ContactMemory<Real>) == TrialSlots::kMemoryNumbers * sizeof(Real));
   }
 
+  // For a trace that is to hold where cut rows do not depend on each other.
+  void take_rows_as_clear() { w_.rows_may_depend = false; }
+
   // f(first slot, numbers, how many) of what a trial reads, parameters aside.
   template <class F>
   void for_read(const TrialSlots& s, F&& f) {

@@ -35,13 +35,15 @@ void write(const TrialSlots& slots, Part& part, codegen::Graph& graph) {
 }  // namespace
 
 StepTrace trace_trial(const Mechanism& m, const Parameters<double>& sizes,
-                      const std::vector<Known>& known, const std::vector<Channel>& observed) {
+                      const std::vector<Known>& known, const std::vector<Channel>& observed,
+                      bool rows_may_depend) {
   const FlushDenormals flush;
   StepTrace traced;
   const codegen::Trace tracing(traced.graph);
   const TrialSlots slots = slots_of(m, known, observed);
   const Parameters<Traced> p = trace_parameters(traced.graph, sizes, known);
   TrialStep<Traced> trial(m, p);
+  if (!rows_may_depend) trial.take_rows_as_clear();
   read(slots, traced.graph, trial);
   trial.advance();
   write(slots, trial, traced.graph);
@@ -54,13 +56,15 @@ StepTrace trace_trial(const Mechanism& m, const Parameters<double>& sizes,
 }
 
 StepTrace trace_inside(const Mechanism& m, const Parameters<double>& sizes,
-                       const std::vector<Known>& known, const std::vector<Channel>& observed) {
+                       const std::vector<Known>& known, const std::vector<Channel>& observed,
+                       bool rows_may_depend) {
   const FlushDenormals flush;
   StepTrace traced;
   const codegen::Trace tracing(traced.graph);
   const TrialSlots slots = slots_of(m, known, observed);
   const Parameters<Traced> p = trace_parameters(traced.graph, sizes, known);
   InsideStep<Traced> inside(m, p, observed.data(), static_cast<int>(observed.size()));
+  if (!rows_may_depend) inside.take_rows_as_clear();
   read(slots, traced.graph, inside);
   inside.look();
   write(slots, inside, traced.graph);

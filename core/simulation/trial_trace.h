@@ -8,8 +8,10 @@ namespace linkstudy {
 
 // Arguments as of trace_step. Throw Untraceable.
 StepTrace trace_trial(const Mechanism& m, const Parameters<double>& sizes,
-                      const std::vector<Known>& known, const std::vector<Channel>& observed);
+                      const std::vector<Known>& known, const std::vector<Channel>& observed,
+                      bool rows_may_depend);
 StepTrace trace_inside(const Mechanism& m, const Parameters<double>& sizes,
-                       const std::vector<Known>& known, const std::vector<Channel>& observed);
+                       const std::vector<Known>& known, const std::vector<Channel>& observed,
+                       bool rows_may_depend);
 
 }  // namespace linkstudy

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "core/codegen/traced.h"
+#include "core/kinematics/assembly.h"
+#include "core/numerics/rank.h"
 #include "core/simulation/trial_trace.h"
 
 namespace linkstudy {
@@ -37,6 +39,15 @@ std::vector<Known> known_in_all(std::span<const LaneCase> cases) {
     });
   }
   return known;
+}
+
+// Of the first case of a pack: the others depend likewise, or the general loop serves them.
+bool rows_depend_at_start(const Mechanism& m, const LaneCase& c) {
+  if (m.cut_rows.empty()) return false;
+  State<double> start = make_state<double>(m);
+  std::copy_n(c.y, m.nq, start.q.begin());
+  const ClosureEquations e = compute_closure_equations(m, *c.parameters, start);
+  return numerical_rank(e.jacobian, kRankTolerance).rank < m.cut_row_count();
 }
 
 // But for their names.
@@ -87,9 +98,11 @@ struct Asked {
   WrittenKind kind;
   const std::vector<Channel>& observed;
   int slot_numbers;
+  bool rows_may_depend;
 
   bool is(const WrittenStep& w) const {
-    return w.kind == kind && w.slot_numbers == slot_numbers && same_channels(w.observed, observed);
+    return w.kind == kind && w.slot_numbers == slot_numbers &&
+           w.rows_may_depend == rows_may_depend && same_channels(w.observed, observed);
   }
 };
 
@@ -99,14 +112,16 @@ std::optional<WrittenStep> write_step(const Asked& asked, const Mechanism& m,
   WrittenStep step;
   step.kind = asked.kind;
   step.slot_numbers = asked.slot_numbers;
+  step.rows_may_depend = asked.rows_may_depend;
   step.observed = asked.observed;
   const bool is_trial = asked.kind == WrittenKind::trial;
-  const StepTrace trace = is_trial ? trace_trial(m, sizes, known, asked.observed)
-                                   : trace_step(m, sizes, known, asked.observed);
+  const auto make = is_trial ? trace_trial : trace_step;
+  const StepTrace trace = make(m, sizes, known, asked.observed, asked.rows_may_depend);
   step.slots = trace.slots;
   step.code = place_code(trace, trace.slots.end, step);
   if (is_trial) {
-    step.inside = place_code(trace_inside(m, sizes, known, asked.observed), step.frame_slots, step);
+    step.inside = place_code(trace_inside(m, sizes, known, asked.observed, asked.rows_may_depend),
+                             step.frame_slots, step);
   }
   step.known = std::move(known);
   if (!step.code || (is_trial && !step.inside)) return std::nullopt;
@@ -217,8 +232,9 @@ std::shared_ptr<const WrittenStep> written_step(const Mechanism& m, std::span<co
                                                 const std::vector<Channel>& observed, long steps,
                                                 const SimdLevel& level, int slot_numbers) {
   if (!why_not_written(level).empty()) return nullptr;
-  return library().find({WrittenKind::step, observed, slot_numbers}, m, cases, steps,
-                        level.kernels);
+  return library().find(
+      {WrittenKind::step, observed, slot_numbers, rows_depend_at_start(m, cases[0])}, m, cases,
+      steps, level.kernels);
 }
 
 std::shared_ptr<const WrittenStep> written_trial(const Mechanism& m,
@@ -227,8 +243,9 @@ std::shared_ptr<const WrittenStep> written_trial(const Mechanism& m,
                                                  long evaluations, const SimdLevel& level,
                                                  int slot_numbers) {
   if (!why_not_written(level).empty()) return nullptr;
-  return library().find({WrittenKind::trial, observed, slot_numbers}, m, cases,
-                        evaluations / kEvaluationsPerStep, level.kernels);
+  return library().find(
+      {WrittenKind::trial, observed, slot_numbers, rows_depend_at_start(m, cases[0])}, m, cases,
+      evaluations / kEvaluationsPerStep, level.kernels);
 }
 
 bool is_writable(const Mechanism& m, const Channel& channel) {

@@ -24,7 +24,8 @@ enum class WrittenKind { step, trial };
 struct WrittenStep {
   WrittenKind kind = WrittenKind::step;
   int slot_numbers = 0;
-  StepSlots slots;  // of a trial: `fine` and `end` (core/simulation/trial_slots.h)
+  bool rows_may_depend = false;  // right for cut rows that depend on each other, too
+  StepSlots slots;               // of a trial: `fine` and `end` (core/simulation/trial_slots.h)
   std::vector<Channel> observed;
   std::vector<Known> known;
   std::vector<codegen::SlotValue> constants;
