@@ -68,6 +68,9 @@ struct StepCode {
   const int* first_observed = nullptr;
   const Sampling* beyond = nullptr;
   int beyond_count = 0;
+  // Code for the same pack, asked for once where this fails too often; may be none.
+  const StepCode* (*instead)(void* context) = nullptr;
+  void* context = nullptr;
 };
 
 struct KernelRun {

@@ -6,24 +6,38 @@
 namespace linkstudy {
 
 PackCode::PackCode(const Mechanism& m, std::span<const LaneCase> cases, long steps,
-                   const SimdLevel& level, int lanes) {
-  observed_ = ObservedChannels(m, *cases[0].observers);
-  written_ = written_step(m, cases, observed_.all(), steps, level, slot_numbers(lanes));
-  if (written_) fill_frame();
+                   const SimdLevel& level, int lanes)
+    : m_(m),
+      cases_(cases),
+      steps_(steps),
+      level_(level),
+      lanes_(lanes),
+      observed_(m, *cases[0].observers) {
+  place(false, first_);
+  if (!first_.written || first_.written->rows_may_depend || m.cut_rows.empty()) return;
+  first_.code.context = this;
+  first_.code.instead = [](void* pack) {
+    return static_cast<PackCode*>(pack)->place_for_dependent_rows();
+  };
 }
 
-void PackCode::fill_frame() {
-  const int numbers = written_->slot_numbers;
-  frame_ = codegen::FrameNumbers(written_->frame_slots * numbers);
-  for (const auto& [slot, bits] : written_->constants) {
-    std::fill_n(frame_.data() + slot * numbers, numbers, std::bit_cast<double>(bits));
+const StepCode* PackCode::place_for_dependent_rows() {
+  place(true, dependent_);
+  return dependent_.written ? &dependent_.code : nullptr;
+}
+
+void PackCode::place(bool rows_may_depend, Placed& at) {
+  at.written = written_step(m_, cases_, observed_.all(), steps_, level_, slot_numbers(lanes_),
+                            rows_may_depend);
+  if (!at.written) return;
+  const int numbers = at.written->slot_numbers;
+  at.frame = codegen::FrameNumbers(at.written->frame_slots * numbers);
+  for (const auto& [slot, bits] : at.written->constants) {
+    std::fill_n(at.frame.data() + slot * numbers, numbers, std::bit_cast<double>(bits));
   }
-  code_ = {written_->code.get(),
-           written_->slots,
-           frame_.data(),
-           observed_.first().data(),
-           observed_.beyond().data(),
-           static_cast<int>(observed_.beyond().size())};
+  at.code = {at.written->code.get(),    at.written->slots,
+             at.frame.data(),           observed_.first().data(),
+             observed_.beyond().data(), static_cast<int>(observed_.beyond().size())};
 }
 
 }  // namespace linkstudy

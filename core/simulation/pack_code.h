@@ -15,25 +15,35 @@ namespace linkstudy {
 
 class PackCode {
  public:
-  // None, until there is one.
-  PackCode() = default;
-
   // The step for these cases, of which each is `steps` long, in a kernel of `lanes`; none where
   // written_step has none. Where observers look it writes what they see, unless that is seldom.
+  // Where it fails since cut rows come to depend on each other, another is written for these.
   PackCode(const Mechanism& m, std::span<const LaneCase> cases, long steps, const SimdLevel& level,
            int lanes);
-  PackCode(PackCode&&) = default;  // no copies: members point into each other's storage
-  PackCode& operator=(PackCode&&) = default;
+  PackCode(const PackCode&) = delete;  // members point into each other's storage
+  PackCode& operator=(const PackCode&) = delete;
 
-  const StepCode* get() const { return written_ ? &code_ : nullptr; }
+  const StepCode* get() const { return first_.written ? &first_.code : nullptr; }
 
  private:
-  void fill_frame();
+  // A step and the frame that it runs on.
+  struct Placed {
+    std::shared_ptr<const WrittenStep> written;
+    codegen::FrameNumbers frame;
+    StepCode code;
+  };
 
+  void place(bool rows_may_depend, Placed& at);
+  const StepCode* place_for_dependent_rows();
+
+  const Mechanism& m_;
+  std::span<const LaneCase> cases_;
+  long steps_;
+  SimdLevel level_;
+  int lanes_;
   ObservedChannels observed_;
-  std::shared_ptr<const WrittenStep> written_;
-  codegen::FrameNumbers frame_;
-  StepCode code_;
+  Placed first_;
+  Placed dependent_;  // where the first fails
 };
 
 }  // namespace linkstudy

@@ -39,9 +39,8 @@ class Run {
         now_(m_, p_, w_),
         checks_(m_, p_),
         watch_(m_, p_, cases, count, setting.count),
-        written_(setting.code) {
+        written_(setting.code, setting.h, setting.drift_limit, p_) {
     for (int i = 0; i < lanes; ++i) reset(i);
-    if (setting.code) written_.start(setting.h, setting.drift_limit, p_);
   }
 
   void run() {

@@ -226,7 +226,7 @@ void run_pack(const Mechanism& m, const SimulationOptions& options, std::span<Ba
   const int lanes = cases.size() == 1 ? 1 : level.lanes;
   Watch watch{limits};
   Packed packed(m, cases);
-  const PackCode code(m, packed.lanes(), make_step_grid(options).count, level, lanes);
+  PackCode code(m, packed.lanes(), make_step_grid(options).count, level, lanes);
   packed.run(options, watch, find_kernel(isa, lanes), code.get());
 }
 

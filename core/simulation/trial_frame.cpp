@@ -68,20 +68,28 @@ void TrialFrame::look_inside(unsigned counting) {
   general_->look_inside(numbers_);
 }
 
+// For code that is right where cut rows depend on each other, or for none.
+void TrialFrame::leave() {
+  may_be_written_ = !m_.cut_rows.empty() && !written_->rows_may_depend;
+  rows_may_depend_ = true;
+  written_ = nullptr;
+  tried_ = failed_ = 0;
+  next_question_ = 0;
+}
+
 bool TrialFrame::run(codegen::FrameCode& code, int fine, unsigned counting) {
-  if (left_) return false;
   code.run(numbers_);
   ++tried_;
   if (is_fine(fine, counting)) return true;
   ++failed_;
-  left_ = tried_ >= kTrial && kMostFailures * failed_ > tried_;
+  if (tried_ >= kTrial && kMostFailures * failed_ > tried_) leave();
   return false;
 }
 
 void TrialFrame::count_evaluations(long count) {
   untold_ += count;
   if (written_ || !may_be_written_ || untold_ < next_question_) return;
-  use(written_trial(m_, cases_, observed_.all(), untold_, level_, width_));
+  use(written_trial(m_, cases_, observed_.all(), untold_, level_, width_, rows_may_depend_));
   untold_ = 0;
   next_question_ = std::max(kFirstQuestion, 2 * next_question_);
 }

@@ -44,6 +44,7 @@ class TrialFrame {
  private:
   double* numbers() const { return numbers_; }
   void use(std::shared_ptr<const WrittenStep> written);
+  void leave();
   // Asks for code now and then, until there is some.
   void count_evaluations(long count);
   bool run(codegen::FrameCode& code, int fine, unsigned counting);
@@ -61,7 +62,7 @@ class TrialFrame {
   std::shared_ptr<const WrittenStep> written_;
   long untold_ = 0, next_question_ = 0;  // evaluations since the last question for code
   long tried_ = 0, failed_ = 0;          // runs of code
-  bool may_be_written_, left_ = false;
+  bool may_be_written_, rows_may_depend_ = false;
 };
 
 }  // namespace linkstudy

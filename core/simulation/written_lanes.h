@@ -1,6 +1,6 @@
 // The lanes of a run on the frame of a written step: what goes in and comes out.
 // A step that fails for a lane has changed nothing outside the frame: the general step loop takes
-// it from the same state. Code that fails again and again is left.
+// it from the same state. Code that fails again and again is left, for other code or none.
 #pragma once
 
 #include <cstdint>
@@ -17,25 +17,19 @@ class WrittenLanes {
   static constexpr int lanes = RealTraits<Real>::lanes;
   static constexpr int width = slot_numbers(lanes);
 
-  explicit WrittenLanes(const StepCode* code) : code_(code) {}
+  // What stays the same during a run goes along; p has to outlive it.
+  WrittenLanes(const StepCode* code, double h, double drift_limit, const Parameters<Real>& p)
+      : h_(h), drift_limit_(drift_limit), p_(p) {
+    take(code);
+  }
 
-  bool is_there() const { return code_ != nullptr && !left_; }
+  bool is_there() const { return code_ != nullptr; }
 
   // Observers look in this step at what the code does not write.
   bool leaves_out(long step) const {
     for (int i = 0; i < code_->beyond_count; ++i)
       if (code_->beyond[i].hits(step)) return true;
     return false;
-  }
-
-  // What stays the same during a run.
-  void start(double h, double drift_limit, const Parameters<Real>& p) {
-    put(StepSlots::h, Real(h));
-    put(StepSlots::drift_limit, Real(drift_limit));
-    int slot = StepSlots::parameters;
-    for_parameter_numbers<Real>(p, [&](const Real* x, std::size_t n) {
-      for (std::size_t k = 0; k < n; ++k) put(slot++, x[k]);
-    });
   }
 
   // for_state(f) calls f(numbers, how many), as for_state_numbers does.
@@ -55,7 +49,7 @@ class WrittenLanes {
     ++tried_;
     if ((fine() & active) == active) return true;
     ++failed_;
-    left_ = tried_ >= kTrial && kMostFailures * failed_ > tried_;
+    if (tried_ >= kTrial && kMostFailures * failed_ > tried_) leave();
     return false;
   }
 
@@ -81,6 +75,20 @@ class WrittenLanes {
   }
 
  private:
+  void take(const StepCode* code) {
+    code_ = code;
+    tried_ = failed_ = 0;
+    if (code_ == nullptr) return;
+    put(StepSlots::h, Real(h_));
+    put(StepSlots::drift_limit, Real(drift_limit_));
+    int slot = StepSlots::parameters;
+    for_parameter_numbers<Real>(p_, [&](const Real* x, std::size_t n) {
+      for (std::size_t k = 0; k < n; ++k) put(slot++, x[k]);
+    });
+  }
+
+  void leave() { take(code_->instead != nullptr ? code_->instead(code_->context) : nullptr); }
+
   static constexpr long kTrial = 64;        // steps before code may be left
   static constexpr long kMostFailures = 4;  // one in so many is too much
 
@@ -114,9 +122,10 @@ class WrittenLanes {
     return bits;
   }
 
-  const StepCode* code_;
+  const double h_, drift_limit_;
+  const Parameters<Real>& p_;
+  const StepCode* code_ = nullptr;
   long tried_ = 0, failed_ = 0;
-  bool left_ = false;
 };
 
 }  // namespace linkstudy

@@ -230,22 +230,23 @@ WrittenReport written_report() {
 
 std::shared_ptr<const WrittenStep> written_step(const Mechanism& m, std::span<const LaneCase> cases,
                                                 const std::vector<Channel>& observed, long steps,
-                                                const SimdLevel& level, int slot_numbers) {
+                                                const SimdLevel& level, int slot_numbers,
+                                                bool rows_may_depend) {
   if (!why_not_written(level).empty()) return nullptr;
-  return library().find(
-      {WrittenKind::step, observed, slot_numbers, rows_depend_at_start(m, cases[0])}, m, cases,
-      steps, level.kernels);
+  const bool may = rows_may_depend || rows_depend_at_start(m, cases[0]);
+  return library().find({WrittenKind::step, observed, slot_numbers, may}, m, cases, steps,
+                        level.kernels);
 }
 
 std::shared_ptr<const WrittenStep> written_trial(const Mechanism& m,
                                                  std::span<const LaneCase> cases,
                                                  const std::vector<Channel>& observed,
                                                  long evaluations, const SimdLevel& level,
-                                                 int slot_numbers) {
+                                                 int slot_numbers, bool rows_may_depend) {
   if (!why_not_written(level).empty()) return nullptr;
-  return library().find(
-      {WrittenKind::trial, observed, slot_numbers, rows_depend_at_start(m, cases[0])}, m, cases,
-      evaluations / kEvaluationsPerStep, level.kernels);
+  const bool may = rows_may_depend || rows_depend_at_start(m, cases[0]);
+  return library().find({WrittenKind::trial, observed, slot_numbers, may}, m, cases,
+                        evaluations / kEvaluationsPerStep, level.kernels);
 }
 
 bool is_writable(const Mechanism& m, const Channel& channel) {

@@ -50,10 +50,12 @@ std::string why_not_written(const SimdLevel& level);
 
 // The step for a pack that writes these channels, on a frame of `slot_numbers` a slot, or null: its
 // structure cannot be traced, this machine has no AVX2 or refuses executable memory, or what is
-// left to run is too little to gain by it. May be called by several threads.
+// left to run is too little to gain by it. Right for cut rows that depend on each other if they do
+// at the start of the first case, or rows_may_depend says so. May be called by several threads.
 std::shared_ptr<const WrittenStep> written_step(const Mechanism& m, std::span<const LaneCase> cases,
                                                 const std::vector<Channel>& observed, long steps,
-                                                const SimdLevel& level, int slot_numbers);
+                                                const SimdLevel& level, int slot_numbers,
+                                                bool rows_may_depend = false);
 
 // The same of trials and instants inside steps, where the equations of motion have been evaluated
 // so often since the last question.
@@ -61,7 +63,7 @@ std::shared_ptr<const WrittenStep> written_trial(const Mechanism& m,
                                                  std::span<const LaneCase> cases,
                                                  const std::vector<Channel>& observed,
                                                  long evaluations, const SimdLevel& level,
-                                                 int slot_numbers);
+                                                 int slot_numbers, bool rows_may_depend = false);
 
 // False of channels that are fitted lane by lane: reactions shared in loops.
 bool is_writable(const Mechanism& m, const Channel& channel);

@@ -45,11 +45,14 @@ EngineRun::EngineRun(const Model& model, const SimdLevel& level, double step, lo
     cases_.push_back(
         {&model_.parameters, y_.data(), finals_[i].data(), &observers_[i], nullptr, &ends_[i]});
   }
-  if (written) code_ = PackCode(model_.mechanism, cases_, steps, level, level.lanes);
+  if (written) {
+    code_ = std::make_unique<PackCode>(model_.mechanism, cases_, steps, level, level.lanes);
+  }
 }
 
 double EngineRun::run() {
-  const KernelRun setting{begin_, step_, steps_, 100, 1.0, never, nullptr, code_.get()};
+  const KernelRun setting{begin_, step_, steps_,  100,
+                          1.0,    never, nullptr, code_ ? code_->get() : nullptr};
   const double spent =
       seconds([&] { kernel_->run(model_.mechanism, setting, cases_.data(), lanes()); });
   for (const LaneEnd& end : ends_) {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -34,7 +35,7 @@ class EngineRun {
   // ends early.
   double run();
 
-  bool is_written() const { return code_.get() != nullptr; }
+  bool is_written() const { return code_ && code_->get() != nullptr; }
   int lanes() const { return kernel_->lanes; }
   InstructionSet isa() const { return kernel_->isa; }
 
@@ -55,7 +56,7 @@ class EngineRun {
   std::vector<LaneEnd> ends_;
   std::vector<std::vector<double>> finals_;
   std::vector<LaneCase> cases_;
-  PackCode code_;
+  std::unique_ptr<PackCode> code_;
 };
 
 // A step loop that is measured. ratios: time of the other over that of the engine.

@@ -92,7 +92,8 @@ class Cases {
 class WideStep {
  public:
   WideStep(const Model& model, const WrittenStep& narrow) : narrow_(narrow) {
-    const StepTrace trace = trace_step(model.mechanism, model.parameters, narrow.known, {});
+    const StepTrace trace =
+        trace_step(model.mechanism, model.parameters, narrow.known, {}, narrow.rows_may_depend);
     program_ =
         codegen::allocate(trace.graph, trace.slots.end, vector_registers(InstructionSet::avx512));
     const std::vector<std::vector<std::uint8_t>> code = {
@@ -120,6 +121,11 @@ class WideStep {
       const Frame& from = half == 0 ? low : high;
       std::copy(from.begin(), from.end(), expected.data());
       narrow_.pages.front()->function()(expected.data());
+      // The step is the code's, in every lane: dependent rows and all.
+      for (int k = 0; k < kNarrow; ++k) {
+        const double fine = expected.data()[narrow_.slots.fine * kNarrow + k];
+        ASSERT_NE(std::bit_cast<std::uint64_t>(fine), 0u) << "lane " << k;
+      }
       for (int slot = 0; slot < narrow_.slots.end; ++slot) {
         for (int k = 0; k < kNarrow; ++k) {
           const double x = wide[static_cast<std::size_t>(slot * kWide + half * kNarrow + k)];
