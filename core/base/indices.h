@@ -6,12 +6,6 @@
 
 namespace linkstudy {
 
-// a[i], unchecked.
-template <class A>
-[[gnu::always_inline]] constexpr auto& at(A& a, int i) {
-  return a.data()[i];
-}
-
 // The number of an index, which is an int or a TypedIndex.
 [[gnu::always_inline]] constexpr int number_of(int i) {
   return i;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cassert>
+#include <concepts>
 #include <cstddef>
 #include <type_traits>
 #include <utility>
@@ -17,8 +18,8 @@ class TypedIndex {
  public:
   // None.
   [[gnu::always_inline]] constexpr TypedIndex() : value_(-1) {}
-  [[gnu::always_inline]] explicit constexpr TypedIndex(int value) : value_(value) {}
-  [[gnu::always_inline]] explicit constexpr TypedIndex(std::size_t value)
+  template <std::integral Number>
+  [[gnu::always_inline]] explicit constexpr TypedIndex(Number value)
       : value_(static_cast<int>(value)) {}
 
   [[gnu::always_inline]] constexpr int value() const { return value_; }
@@ -81,7 +82,7 @@ class IndexedVector : public std::vector<T> {
 
   [[gnu::always_inline]] bool holds(Index i) const { return i.exists() && i < end_index(); }
   // One past the last; that of what is appended next.
-  [[gnu::always_inline]] Index end_index() const { return Index(static_cast<int>(this->size())); }
+  [[gnu::always_inline]] Index end_index() const { return Index(this->size()); }
 };
 
 // Items in a row whose number is not known here: accesses are not checked.
@@ -89,8 +90,9 @@ template <class Index, class T>
 class IndexedPointer {
  public:
   [[gnu::always_inline]] constexpr IndexedPointer(T* first) : first_(first) {}
-  [[gnu::always_inline]] constexpr IndexedPointer(
-      const IndexedPointer<Index, std::remove_const_t<T>>& other) requires std::is_const_v<T>
+  template <class Other>
+  requires std::is_same_v<const Other, T>
+  [[gnu::always_inline]] constexpr IndexedPointer(IndexedPointer<Index, Other> other)
       : first_(other.data()) {}
   template <class V>
   requires std::is_same_v<typename V::IndexType, Index> &&

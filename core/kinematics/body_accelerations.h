@@ -13,23 +13,23 @@ namespace linkstudy {
 // (translation), carried outwards by a += alpha x shift.
 template <class Real>
 inline void add_joint_accelerations(const Mechanism& m, const Parameters<Real>& p,
-                                    const Workspace<Real>& w, int b,
-                                    std::vector<BodyState<Real>>& moving) {
-  const int parent = at(m.bodies, b).parent;
-  BodyState<Real>& s = at(moving, b);
-  const BodyState<Real>& sp = at(moving, parent);
-  const BodyState<Real>& wp = at(w.bodies, parent);
+                                    const Workspace<Real>& w, BodyIndex b,
+                                    BodyStates<Real>& moving) {
+  const BodyIndex parent = m.bodies[b].parent;
+  BodyState<Real>& s = moving[b];
+  const BodyState<Real>& sp = moving[parent];
+  const BodyState<Real>& wp = w.bodies[parent];
   Vec3<Real> alpha = sp.alpha - wp.alpha;
-  Vec3<Real> a = sp.a - wp.a + cross(alpha, at(w.bodies, b).p - wp.p);
-  for (const int k : velocities_of(at(m.bodies, b))) {
-    const Velocity& velocity = at(m.velocities, k);
-    const Vec3<Real> e = at(w.qdd, k) * at(w.axes, k);
+  Vec3<Real> a = sp.a - wp.a + cross(alpha, w.bodies[b].p - wp.p);
+  for (const VelocityIndex k : velocities_of(m.bodies[b])) {
+    const Velocity& velocity = m.velocities[k];
+    const Vec3<Real> e = w.qdd[k] * w.axes[k];
     if (velocity.kind == VelocityKind::translation) {
       a = a + e;
       continue;
     }
     alpha = alpha + e;
-    if (velocity.kind == VelocityKind::screw) a = madd(at(p.pitch, velocity.stage), e, a);
+    if (velocity.kind == VelocityKind::screw) a = madd(p.pitch[velocity.stage], e, a);
   }
   s.alpha = s.alpha + alpha;
   s.a = s.a + a;
@@ -38,10 +38,9 @@ inline void add_joint_accelerations(const Mechanism& m, const Parameters<Real>& 
 // The states of `w` with accelerations of its qdd; `moving` is as long as they are.
 template <class Real>
 inline void update_body_accelerations(const Mechanism& m, const Parameters<Real>& p,
-                                      const Workspace<Real>& w,
-                                      std::vector<BodyState<Real>>& moving) {
+                                      const Workspace<Real>& w, BodyStates<Real>& moving) {
   moving = w.bodies;
-  for (const int b : bodies_outwards(m)) add_joint_accelerations(m, p, w, b, moving);
+  for (const BodyIndex b : bodies_outwards(m)) add_joint_accelerations(m, p, w, b, moving);
 }
 
 }  // namespace linkstudy

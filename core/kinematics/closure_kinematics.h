@@ -27,7 +27,7 @@ inline bool acts_at_both_points(RowKind kind) {
 
 template <class Real>
 inline void update_closure_pose(const Mechanism& m, const ClosureStructure& c,
-                                const ClosureParameters<Real>& n, const BodyState<Real>* bodies,
+                                const ClosureParameters<Real>& n, const BodyStates<Real>& bodies,
                                 ClosureState<Real>& x) {
   const BodyState<Real>& b1 = bodies[c.first];
   const BodyState<Real>& b2 = bodies[c.second];
@@ -37,8 +37,8 @@ inline void update_closure_pose(const Mechanism& m, const ClosureStructure& c,
   x.p2 = b2.p + x.arm_2;
   x.v1 = b1.v;
   x.v2 = b2.v;
-  const bool turns_1 = at(m.bodies, c.first).rotates;
-  const bool turns_2 = at(m.bodies, c.second).rotates;
+  const bool turns_1 = m.bodies[c.first].rotates;
+  const bool turns_2 = m.bodies[c.second].rotates;
   if (turns_1) x.v1 = x.v1 + cross(b1.omega, x.arm_1);
   if (turns_2) x.v2 = x.v2 + cross(b2.omega, x.arm_2);
   if (!c.needs_frames) return;
@@ -58,9 +58,9 @@ inline Vec3<Real> point_acceleration(const Body& body, const BodyState<Real>& b,
 // a2 - a1 of the closure points for qdd = 0.
 template <class Real>
 inline Vec3<Real> gap_acceleration(const Mechanism& m, const ClosureStructure& c,
-                                   const BodyState<Real>* bodies, const ClosureState<Real>& x) {
-  return point_acceleration(at(m.bodies, c.second), bodies[c.second], x.arm_2, x.v2) -
-         point_acceleration(at(m.bodies, c.first), bodies[c.first], x.arm_1, x.v1);
+                                   const BodyStates<Real>& bodies, const ClosureState<Real>& x) {
+  return point_acceleration(m.bodies[c.second], bodies[c.second], x.arm_2, x.v2) -
+         point_acceleration(m.bodies[c.first], bodies[c.first], x.arm_1, x.v1);
 }
 
 // Gap, its rate and acceleration seen from a frame that turns with the first body.
@@ -199,18 +199,18 @@ template <RowStorage Storage, class Real>
 inline void update_rows(const Mechanism& m, const Parameters<Real>& p, Workspace<Real>& w) {
   const auto& rows = rows_of<Storage>(m);
   auto& states = row_states_of<Storage>(w);
-  const BodyState<Real>* bodies = w.bodies.data();
-  for (const int i : indices_of(m.closures)) {
-    const ClosureStructure& c = at(m.closures, i);
+  const BodyStates<Real>& bodies = w.bodies;
+  for (const ClosureIndex i : indices_of(m.closures)) {
+    const ClosureStructure& c = m.closures[i];
     if (storage_of(c.model) != Storage) continue;
-    ClosureState<Real>& x = at(w.closures, i);
-    update_closure_pose(m, c, at(p.closures, i), bodies, x);
+    ClosureState<Real>& x = w.closures[i];
+    update_closure_pose(m, c, p.closures[i], bodies, x);
     const Vec3<Real> acceleration =
         Storage == RowStorage::cut ? gap_acceleration(m, c, bodies, x) : zero3<Real>();
-    if (c.point_rows) update_point_rows(x, acceleration, &at(states, c.row_begin));
-    for (const int r : other_rows_of(c)) {
-      update_row(at(rows, r), x, at(p.closures, i), bodies[c.first], bodies[c.second], acceleration,
-                 at(states, r));
+    if (c.point_rows) update_point_rows(x, acceleration, &states[c.row_begin]);
+    for (const RowIndex r : other_rows_of(c)) {
+      update_row(rows[r], x, p.closures[i], bodies[c.first], bodies[c.second], acceleration,
+                 states[r]);
     }
   }
 }
@@ -241,23 +241,23 @@ template <RowStorage Storage, class Real>
 inline void sum_row_forces(const Mechanism& m, Workspace<Real>& w) {
   const auto& rows = rows_of<Storage>(m);
   const auto& states = row_states_of<Storage>(w);
-  for (const int i : indices_of(m.closures)) {
-    const ClosureStructure& c = at(m.closures, i);
+  for (const ClosureIndex i : indices_of(m.closures)) {
+    const ClosureStructure& c = m.closures[i];
     if (storage_of(c.model) != Storage) continue;
-    ClosureState<Real>& x = at(w.closures, i);
+    ClosureState<Real>& x = w.closures[i];
     x.force_points = x.force_second = x.couple = zero3<Real>();
     if (c.point_rows) {
-      x.force_points = {at(states, c.row_begin).value, at(states, c.row_begin + 1).value,
-                        at(states, c.row_begin + 2).value};
+      x.force_points = {states[c.row_begin].value, states[c.row_begin + 1].value,
+                        states[c.row_begin + 2].value};
     }
-    for (const int r : other_rows_of(c)) add_row_force(at(rows, r), at(states, r), x);
+    for (const RowIndex r : other_rows_of(c)) add_row_force(rows[r], states[r], x);
   }
 }
 
 // Adds the forces of a clearance's contacts, times -1, to the wrenches that the bodies need.
 template <class Real>
 inline void subtract_contact_forces(const ClosureStructure& c, const ClosureState<Real>& x,
-                                    const BodyState<Real>* bodies, Wrench<Real>& first,
+                                    const BodyStates<Real>& bodies, Wrench<Real>& first,
                                     Wrench<Real>& second) {
   subtract_force(first, x.arm_1, x.contact_force);
   add_force(second, x.p1 - bodies[c.second].p, x.contact_force);
@@ -269,7 +269,7 @@ inline void subtract_contact_forces(const ClosureStructure& c, const ClosureStat
 // -f on the second.
 template <class Real>
 inline void subtract_closure_forces(const ClosureStructure& c, const ClosureState<Real>& x,
-                                    const BodyState<Real>* bodies, Wrench<Real>& first,
+                                    const BodyStates<Real>& bodies, Wrench<Real>& first,
                                     Wrench<Real>& second) {
   subtract_force(first, x.arm_1, x.force_points);
   add_force(second, x.arm_2, x.force_points);

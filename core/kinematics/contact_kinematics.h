@@ -88,12 +88,12 @@ inline ContactGeometry<Real> contact_geometry(const JournalInBearing<Real>& j,
 // f(clearance, journal in its bearing) after update_kinematics; the pose of its closure is updated.
 template <class Real, class F>
 inline void for_journals(const Mechanism& m, const Parameters<Real>& p, Workspace<Real>& w, F&& f) {
-  const BodyState<Real>* bodies = w.bodies.data();
-  for (const int c : indices_of(m.clearances)) {
-    const ClearanceStructure& clearance = at(m.clearances, c);
-    const ClosureStructure& closure = at(m.closures, clearance.closure);
-    ClosureState<Real>& x = at(w.closures, clearance.closure);
-    update_closure_pose(m, closure, at(p.closures, clearance.closure), bodies, x);
+  const BodyStates<Real>& bodies = w.bodies;
+  for (const ClearanceIndex c : indices_of(m.clearances)) {
+    const ClearanceStructure& clearance = m.clearances[c];
+    const ClosureStructure& closure = m.closures[clearance.closure];
+    ClosureState<Real>& x = w.closures[clearance.closure];
+    update_closure_pose(m, closure, p.closures[clearance.closure], bodies, x);
     f(c, journal_in_bearing(clearance, x, bodies[closure.first], bodies[closure.second]));
   }
 }

@@ -148,8 +148,8 @@ inline void position_rates(const Stage& stage, const Real* q, const Real* v, Rea
 
 template <class Real>
 inline void normalize_quaternions(const Mechanism& m, Real* q) {
-  for (int i : m.ball_q) {
-    Real* h = q + i;
+  for (const PositionIndex i : m.ball_q) {
+    Real* h = q + i.value();
     const Real square = madd(h[0], h[0], madd(h[1], h[1], madd(h[2], h[2], h[3] * h[3])));
     const Real inverse = Real(1.0) / sqrt(square);
     for (int j = 0; j < 4; ++j) h[j] = h[j] * inverse;
@@ -158,15 +158,16 @@ inline void normalize_quaternions(const Mechanism& m, Real* q) {
 
 // q := q + the displacement dq in velocity coordinates; quaternions are normalised.
 template <class Real>
-inline void displace(const Mechanism& m, const Real* dq, Real* q) {
+inline void displace(const Mechanism& m, Velocities<const Real> dq, Real* q) {
   for (const Stage& s : m.stages) {
+    Real* own = q + s.q.value();
     if (s.motion != BasicMotion::ball) {
-      q[s.q] = q[s.q] + dq[s.v];
+      *own = *own + dq[s.v];
       continue;
     }
     Real rate[4];
-    position_rates(s, q + s.q, dq + s.v, rate);
-    for (int i = 0; i < 4; ++i) q[s.q + i] = q[s.q + i] + rate[i];
+    position_rates(s, own, &dq[s.v], rate);
+    for (int i = 0; i < 4; ++i) own[i] = own[i] + rate[i];
   }
   normalize_quaternions(m, q);
 }

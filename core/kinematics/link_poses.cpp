@@ -27,7 +27,7 @@ std::vector<ShortenedDualQuaternion> link_poses(const Linkage& linkage, const Mo
   Workspace<double> w = make_workspace<double>(m);
   update_kinematics(m, model.parameters, s.q.data(), s.v.data(), w);
   std::vector<ShortenedDualQuaternion> poses(1);
-  for (std::size_t b = 1; b < m.bodies.size(); ++b) {
+  for (const BodyIndex b : bodies_outwards(m)) {
     poses.push_back(
         compose(pose_of(w.bodies[b]), inverse(body_in_link(linkage, m.joint_names[b]))));
   }

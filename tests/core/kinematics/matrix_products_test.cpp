@@ -86,7 +86,7 @@ class Products {
   Products(const Linkage& linkage, const Mechanism& m)
       : trace_(make_trace_model(linkage)), map_(oracle_coordinates(m, trace_)) {
     for (std::size_t b = 1; b < m.bodies.size(); ++b) {
-      const Joint& joint = joint_named(linkage, m.joint_names[b]);
+      const Joint& joint = joint_named(linkage, m.joint_names[BodyIndex(b)]);
       frames_.push_back({link_index(trace_, joint.child), transform(joint.child_frame)});
     }
   }
@@ -290,7 +290,7 @@ TEST(MatrixProducts, Give_velocities_and_accelerations_of_driven_linkages) {
     ASSERT_EQ(turn.cycle.poses.size(), 25u);
     const TraceModel trace = make_trace_model(linkage);
     const auto map = oracle_coordinates(turn.model.mechanism, trace);
-    const int n = map[static_cast<std::size_t>(turn.drive.velocity)];
+    const int n = map[static_cast<std::size_t>(turn.drive.velocity.value())];
     for (const DrivenPose& pose : turn.cycle.poses) {
       const Vector q = of_products(to_vector(pose.s.q), map);
       const DrivenRates rates =

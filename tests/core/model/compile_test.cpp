@@ -30,7 +30,7 @@ Linkage slide(const Matrix3d& rotation) {
 }
 
 RotationShape shape_of(const Matrix3d& rotation) {
-  return compile(slide(rotation)).mechanism.bodies[1].frame;
+  return compile(slide(rotation)).mechanism.bodies[BodyIndex(1)].frame;
 }
 
 // Where the engine puts the body, and where its axes point.
@@ -39,7 +39,7 @@ BodyState<double> place(const Matrix3d& rotation) {
   Workspace<double> w = make_workspace<double>(model.mechanism);
   update_kinematics(model.mechanism, model.parameters, model.start.q.data(), model.start.v.data(),
                     w);
-  return w.bodies[1];
+  return w.bodies[BodyIndex(1)];
 }
 
 Matrix3d turned(double angle, int axis) {
