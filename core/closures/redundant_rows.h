@@ -56,7 +56,7 @@ template <class Real>
 inline Real distance_from_axis(const Mechanism& m, const Parameters<Real>& p,
                                const Workspace<Real>& w, VelocityIndex k, const Vec3<Real>& point) {
   const Velocity& v = m.velocities[k];
-  const Vec3<Real> turned = cross(w.axes[k], point - w.bodies[v.body].p);
+  const Vec3<Real> turned = cross(w.axes[k], point - w.bodies[v.body].p_WB);
   const Real distance = sqrt(dot(turned, turned));
   return v.kind == VelocityKind::screw ? max(distance, abs(p.pitch[v.stage])) : distance;
 }
@@ -73,7 +73,7 @@ inline Real closure_lever(const Mechanism& m, const Parameters<Real>& p, const W
     if (v.kind == VelocityKind::translation) return;
     const Real distance = distance_from_axis(m, p, w, k, point);
     square = madd(distance, distance, square);
-    extent = max(extent, largest_component(w.bodies[v.body].p));
+    extent = max(extent, largest_component(w.bodies[v.body].p_WB));
     ++count;
   });
   if (count == 0) return Real(0.0);

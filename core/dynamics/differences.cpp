@@ -28,8 +28,8 @@ Extent compute_extent(const Model& model, const State<double>& s) {
   };
   for (const BodyIndex b : bodies_outwards(m)) {
     const BodyParameters<double>& n = model.parameters.bodies[b];
-    add(w.bodies[b].p);
-    add(w.bodies[b].p + w.bodies[b].r * ((1.0 / n.mass) * n.moment));
+    add(w.bodies[b].p_WB);
+    add(w.bodies[b].p_WB + w.bodies[b].R_WB * ((1.0 / n.mass) * n.moment));
   }
   for (const ClosureState<double>& c : w.closures) {
     add(c.p1);
@@ -37,8 +37,8 @@ Extent compute_extent(const Model& model, const State<double>& s) {
   }
   for (const PointSpringIndex i : indices_of(w.point_springs)) {
     const PointSpringStructure& spring = m.point_springs[i];
-    add(w.bodies[spring.first].p + w.point_springs[i].arm_1);
-    add(w.bodies[spring.second].p + w.point_springs[i].arm_2);
+    add(w.bodies[spring.first].p_WB + w.point_springs[i].arm_1);
+    add(w.bodies[spring.second].p_WB + w.point_springs[i].arm_2);
   }
   const double length = box.isEmpty() ? 0.0 : box.diagonal().norm();
   if (length > kCoincidence) extent.length = length;

@@ -30,10 +30,10 @@ inline Energy<Real> compute_energy(const Mechanism& m, const Parameters<Real>& p
     const BodyState<Real>& s = w.bodies[b];
     const Inertia<Real>& i = s.inertia;
     // 1/2 m v.v + v.(omega x h) + 1/2 omega.I omega
-    Real twice = dot(s.v, madd(i.m, s.v, Real(2.0) * cross(s.omega, i.h)));
-    if (m.bodies[b].rotates) twice = twice + dot(s.omega, i.i * s.omega);
+    Real twice = dot(s.v_WB, madd(i.m, s.v_WB, Real(2.0) * cross(s.w_WB, i.h)));
+    if (m.bodies[b].rotates) twice = twice + dot(s.w_WB, i.i * s.w_WB);
     e.kinetic = madd(Real(0.5), twice, e.kinetic);
-    e.height = e.height - dot(p.gravity, madd(i.m, s.p, i.h));
+    e.height = e.height - dot(p.gravity, madd(i.m, s.p_WB, i.h));
   }
   for (const RowIndex i : indices_of(m.sde_rows)) {
     const Real d = w.sde_rows[i].d;

@@ -15,16 +15,16 @@ namespace linkstudy {
 template <class Real>
 inline Wrench<Real> inertial_wrench(const Body& body, const BodyState<Real>& s) {
   const Inertia<Real>& i = s.inertia;
-  Wrench<Real> w{zero3<Real>(), i.m * s.a};
+  Wrench<Real> w{zero3<Real>(), i.m * s.a_WB};
   const bool offset = body.center != VectorShape::zero;
-  if (offset) w.moment = cross(i.h, s.a);
+  if (offset) w.moment = cross(i.h, s.a_WB);
   if (!body.rotates) return w;
   if (offset) {
-    w.force = w.force + cross(s.omega, cross(s.omega, i.h));
-    if (body.gyrates) w.force = w.force + cross(s.alpha, i.h);
+    w.force = w.force + cross(s.w_WB, cross(s.w_WB, i.h));
+    if (body.gyrates) w.force = w.force + cross(s.alpha_WB, i.h);
   }
-  if (body.inertia != InertiaShape::isotropic) w.moment = w.moment + cross(s.omega, i.i * s.omega);
-  if (body.gyrates) w.moment = w.moment + i.i * s.alpha;
+  if (body.inertia != InertiaShape::isotropic) w.moment = w.moment + cross(s.w_WB, i.i * s.w_WB);
+  if (body.gyrates) w.moment = w.moment + i.i * s.alpha_WB;
   return w;
 }
 
@@ -61,8 +61,8 @@ inline void pass_to_parent(const Body& body, const BodyState<Real>& s, bool pare
   }
   parent.wrench.moment = parent.wrench.moment + s.wrench.moment;
   if (body.shifted) {
-    parent.wrench.moment = parent.wrench.moment + cross(s.shift, s.wrench.force);
-    add_inertia(parent.composite, shift_inertia(composite, s.shift));
+    parent.wrench.moment = parent.wrench.moment + cross(s.p_PB_W, s.wrench.force);
+    add_inertia(parent.composite, shift_inertia(composite, s.p_PB_W));
   } else {
     add_inertia(parent.composite, composite);
   }
@@ -114,7 +114,7 @@ inline void update_mass_matrix(const Mechanism& m, const Parameters<Real>& p, Wo
         if (i <= k) row[i] = work_rate(m.velocities[i], pitch, w.axes[i], f);
       }
       if (!body.shifted) continue;
-      f.moment = f.moment + cross(w.bodies[b].shift, f.force);
+      f.moment = f.moment + cross(w.bodies[b].p_PB_W, f.force);
     }
   }
 }

@@ -62,7 +62,7 @@ inline void update_reactions(const Mechanism& m, const Parameters<Real>& p,
   for (const BodyIndex b : bodies_inwards(m)) {
     const BodyIndex parent = m.bodies[b].parent;
     Wrench<Real>& sum = r.on_child[parent];
-    add_force(sum, w.bodies[b].p - w.bodies[parent].p, r.on_child[b].force);
+    add_force(sum, w.bodies[b].p_WB - w.bodies[parent].p_WB, r.on_child[b].force);
     sum.moment = sum.moment + r.on_child[b].moment;
   }
 }

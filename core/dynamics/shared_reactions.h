@@ -39,7 +39,7 @@ inline void for_loop_rows(const Mechanism& m, F&& f) {
 // Where the reaction of a joint is taken.
 template <class Real>
 inline const Vec3<Real>& point_of(const Workspace<Real>& w, const LoopJoint& joint) {
-  return joint.body.exists() ? w.bodies[joint.body].p : w.closures[joint.closure].p1;
+  return joint.body.exists() ? w.bodies[joint.body].p_WB : w.closures[joint.closure].p1;
 }
 
 // l of the loops of one joint; 0 where all their joints are at one point.
@@ -131,7 +131,7 @@ inline Wrench<Real> effect_on(const Mechanism& m, const Workspace<Real>& w, cons
     effect.moment = effect.moment + state.couple;
     return effect;
   }
-  const Vec3<Real>& origin = w.bodies[joint.body].p;
+  const Vec3<Real>& origin = w.bodies[joint.body].p_WB;
   const bool first = carries(m, joint.body, c.first), second = carries(m, joint.body, c.second);
   if (first == second) return effect;
   if (first) {

@@ -32,12 +32,12 @@ template <class Real>
 inline void add_link_load(const LoadStructure& s, const LoadParameters<Real>& n, Real value,
                           Workspace<Real>& w, Wrench<Real>& load) {
   BodyState<Real>& b = w.bodies[s.body];
-  const Vec3<Real> e = value * (s.follows_link ? b.r * n.direction : n.direction);
+  const Vec3<Real> e = value * (s.follows_link ? b.R_WB * n.direction : n.direction);
   load = {e, zero3<Real>()};
-  if (s.type == LoadType::link_force) load = {cross(b.r * n.point, e), e};
+  if (s.type == LoadType::link_force) load = {cross(b.R_WB * n.point, e), e};
   b.wrench.force = b.wrench.force - load.force;
   b.wrench.moment = b.wrench.moment - load.moment;
-  w.supplied_power = w.supplied_power + dot(b.v, load.force) + dot(b.omega, load.moment);
+  w.supplied_power = w.supplied_power + dot(b.v_WB, load.force) + dot(b.w_WB, load.moment);
 }
 
 template <class Real>

@@ -15,7 +15,7 @@ namespace linkstudy {
 template <class Real>
 inline Vec3<Real> turn_in_child(const ConstantFrictionStructure& s, int k,
                                 const Workspace<Real>& w) {
-  const Mat3<Real>& r = w.bodies[s.body].r;
+  const Mat3<Real>& r = w.bodies[s.body].R_WB;
   const Vec3<Real>& axis = w.axes[s.v + k];
   return {dot(r.x, axis), dot(r.y, axis), dot(r.z, axis)};
 }

@@ -18,7 +18,7 @@ namespace linkstudy {
 // Velocity of a point `arm` from the origin of its body.
 template <class Real>
 inline Vec3<Real> velocity_at(const Body& body, const BodyState<Real>& b, const Vec3<Real>& arm) {
-  return body.rotates ? b.v + cross(b.omega, arm) : b.v;
+  return body.rotates ? b.v_WB + cross(b.w_WB, arm) : b.v_WB;
 }
 
 // Arms, length and rate; e is returned.
@@ -28,9 +28,9 @@ inline Vec3<Real> update_line(const Mechanism& m, const PointSpringStructure& s,
                               PointSpringState<Real>& x) {
   const BodyState<Real>& b1 = bodies[s.first];
   const BodyState<Real>& b2 = bodies[s.second];
-  x.arm_1 = b1.r * n.point_1;
-  x.arm_2 = b2.r * n.point_2;
-  const Vec3<Real> gap = (b2.p + x.arm_2) - (b1.p + x.arm_1);
+  x.arm_1 = b1.R_WB * n.point_1;
+  x.arm_2 = b2.R_WB * n.point_2;
+  const Vec3<Real> gap = (b2.p_WB + x.arm_2) - (b1.p_WB + x.arm_1);
   x.length = sqrt(dot(gap, gap));
   const auto coincide = x.length < Real(1e-150);
   const Real one(1.0), none(0.0);

@@ -19,8 +19,8 @@ inline void add_joint_accelerations(const Mechanism& m, const Parameters<Real>& 
   BodyState<Real>& s = moving[b];
   const BodyState<Real>& sp = moving[parent];
   const BodyState<Real>& wp = w.bodies[parent];
-  Vec3<Real> alpha = sp.alpha - wp.alpha;
-  Vec3<Real> a = sp.a - wp.a + cross(alpha, w.bodies[b].p - wp.p);
+  Vec3<Real> alpha = sp.alpha_WB - wp.alpha_WB;
+  Vec3<Real> a = sp.a_WB - wp.a_WB + cross(alpha, w.bodies[b].p_WB - wp.p_WB);
   for (const VelocityIndex k : velocities_of(m.bodies[b])) {
     const Velocity& velocity = m.velocities[k];
     const Vec3<Real> e = w.qdd[k] * w.axes[k];
@@ -31,8 +31,8 @@ inline void add_joint_accelerations(const Mechanism& m, const Parameters<Real>& 
     alpha = alpha + e;
     if (velocity.kind == VelocityKind::screw) a = madd(p.pitch[velocity.stage], e, a);
   }
-  s.alpha = s.alpha + alpha;
-  s.a = s.a + a;
+  s.alpha_WB = s.alpha_WB + alpha;
+  s.a_WB = s.a_WB + a;
 }
 
 // The states of `w` with accelerations of its qdd; `moving` is as long as they are.

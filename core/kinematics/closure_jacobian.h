@@ -27,7 +27,7 @@ inline void add_row_rates(const Mechanism& m, const Parameters<Real>& p, const W
   const Vec3<Real>& point_1 = acts_at_both_points(r.kind) ? x.p1 : x.p2;
   const auto rate = [&](VelocityIndex k, const Vec3<Real>& point) {
     const Velocity& v = m.velocities[k];
-    return row_rate(v, p.pitch, w.axes[k], w.bodies[v.body].p, point, row);
+    return row_rate(v, p.pitch, w.axes[k], w.bodies[v.body].p_WB, point, row);
   };
   for (const VelocityIndex k : path(m, m.closures[closure].last_1)) j[k] = j[k] - rate(k, point_1);
   for (const VelocityIndex k : path(m, m.closures[closure].last_2)) j[k] = j[k] + rate(k, x.p2);
@@ -40,7 +40,7 @@ inline Vec3<Real> point_rate(const Mechanism& m, const Parameters<Real>& p,
   const Velocity& v = m.velocities[k];
   const Vec3<Real>& e = w.axes[k];
   if (v.kind == VelocityKind::translation) return e;
-  const Vec3<Real> turned = cross(e, point - w.bodies[v.body].p);
+  const Vec3<Real> turned = cross(e, point - w.bodies[v.body].p_WB);
   return v.kind == VelocityKind::screw ? madd(p.pitch[v.stage], e, turned) : turned;
 }
 

@@ -43,9 +43,9 @@ void add_turns(const FrameMotion& first, const FrameMotion& second, int turns, i
 
 // A frame fixed in a body, by the body's motion with true accelerations but for gravity.
 FrameMotion frame_motion(const ClosureFrame& pose, const BodyState<double>& body) {
-  const Vector3d arm = pose.position - to_eigen(body.p);
-  FrameMotion f{pose, to_eigen(body.v), to_eigen(body.a), to_eigen(body.omega),
-                to_eigen(body.alpha)};
+  const Vector3d arm = pose.position - to_eigen(body.p_WB);
+  FrameMotion f{pose, to_eigen(body.v_WB), to_eigen(body.a_WB), to_eigen(body.w_WB),
+                to_eigen(body.alpha_WB)};
   const Vector3d carried = f.omega.cross(arm);
   f.velocity += carried;
   f.acceleration += f.alpha.cross(arm) + f.omega.cross(carried);

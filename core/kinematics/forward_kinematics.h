@@ -59,25 +59,25 @@ template <class Real>
 inline Moving<Real> start_at_joint_frame(const Body& body, const BodyParameters<Real>& n,
                                          const BodyState<Real>& parent, const Body& parent_body,
                                          BodyState<Real>& s) {
-  s.v = parent.v;
-  s.a = parent.a;
+  s.v_WB = parent.v_WB;
+  s.a_WB = parent.a_WB;
   if (body.parent == kGroundBody) {
-    s.r = n.frame;
-    s.p = n.origin;
+    s.R_WB = n.R_PJ;
+    s.p_WB = n.p_PJ;
     return {s, false, false};
   }
-  turn_frame(body, parent.r, n.frame, s.r);
-  s.p = parent.p;
-  if (parent_body.rotates) s.omega = parent.omega;
-  if (parent_body.gyrates) s.alpha = parent.alpha;
+  turn_frame(body, parent.R_WB, n.R_PJ, s.R_WB);
+  s.p_WB = parent.p_WB;
+  if (parent_body.rotates) s.w_WB = parent.w_WB;
+  if (parent_body.gyrates) s.alpha_WB = parent.alpha_WB;
   if (body.offset != VectorShape::zero) {
-    const Vec3<Real> r = rotate(parent.r, n.origin, body.offset);
-    s.p = s.p + r;
+    const Vec3<Real> r = rotate(parent.R_WB, n.p_PJ, body.offset);
+    s.p_WB = s.p_WB + r;
     if (parent_body.rotates) {
-      const Vec3<Real> carried = cross(s.omega, r);
-      s.v = s.v + carried;
-      s.a = s.a + cross(s.omega, carried);
-      if (parent_body.gyrates) s.a = s.a + cross(s.alpha, r);
+      const Vec3<Real> carried = cross(s.w_WB, r);
+      s.v_WB = s.v_WB + carried;
+      s.a_WB = s.a_WB + cross(s.w_WB, carried);
+      if (parent_body.gyrates) s.a_WB = s.a_WB + cross(s.alpha_WB, r);
     }
   }
   return {s, parent_body.rotates, parent_body.gyrates};
@@ -103,9 +103,9 @@ inline Sym3<Real> world_inertia(InertiaShape shape, const Sym3<Real>& i, const M
 template <class Real>
 inline void set_ground(const Parameters<Real>& p, BodyState<Real>& ground) {
   const Vec3<Real> zero = zero3<Real>();
-  ground.r = identity3<Real>();
-  ground.p = ground.shift = ground.omega = ground.v = ground.alpha = zero;
-  ground.a = Real(-1.0) * p.gravity;
+  ground.R_WB = identity3<Real>();
+  ground.p_WB = ground.p_PB_W = ground.w_WB = ground.v_WB = ground.alpha_WB = zero;
+  ground.a_WB = Real(-1.0) * p.gravity;
 }
 
 // Rows of couplings; accelerations that are known are part of the bias.
@@ -148,10 +148,10 @@ inline void update_kinematics(const Mechanism& m, const Parameters<Real>& p,
         accelerate(velocity.kind, p.pitch[i], w.motions[velocity.motion].a, w.axes[stage.v], x);
       }
     }
-    if (body.shifted) s.shift = s.p - parent.p;
+    if (body.shifted) s.p_PB_W = s.p_WB - parent.p_WB;
     s.inertia.m = n.mass;
-    s.inertia.h = rotate(s.r, n.moment, body.center);
-    if (body.rotates) s.inertia.i = world_inertia(body.inertia, n.inertia, s.r);
+    s.inertia.h = rotate(s.R_WB, n.moment, body.center);
+    if (body.rotates) s.inertia.i = world_inertia(body.inertia, n.inertia, s.R_WB);
   }
   update_coupling_rows(m, p, q, v, w);
 }

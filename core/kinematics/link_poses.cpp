@@ -16,7 +16,7 @@ ShortenedDualQuaternion body_in_link(const Linkage& linkage, const std::string& 
 }
 
 ShortenedDualQuaternion pose_of(const BodyState<double>& body) {
-  return {euler_parameters(to_eigen(body.r)), to_eigen(body.p)};
+  return {euler_parameters(to_eigen(body.R_WB)), to_eigen(body.p_WB)};
 }
 
 }  // namespace

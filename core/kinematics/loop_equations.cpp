@@ -78,7 +78,7 @@ LoopEquations::Frames LoopEquations::frames(const State<double>& s,
   f.first = first_frame(x);
   f.second = second_frame(x);
   f.reached = cut_position ? moved_by(joint_, *cut_position, f.first) : f.second;
-  f.common = to_eigen(f.w.bodies[loop_.common].r);
+  f.common = to_eigen(f.w.bodies[loop_.common].R_WB);
   return f;
 }
 

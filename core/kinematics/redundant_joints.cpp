@@ -18,7 +18,7 @@ MatrixXd twist_columns(const Model& closed, const ClosureScale& scale, const Wor
                        BodyIndex body) {
   const Mechanism& m = closed.mechanism;
   const Vec3<double> axes[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  const Vec3<double>& origin = w.bodies[body].p;
+  const Vec3<double>& origin = w.bodies[body].p_WB;
   MatrixXd t = MatrixXd::Zero(m.cut_row_count(), 6);
   for (const RowIndex r : indices_of(m.cut_rows)) {
     const Row& row = m.cut_rows[r];

@@ -14,7 +14,7 @@ double find_extent(const Model& model, const Workspace<double>& w) {
   const Mechanism& m = model.mechanism;
   Eigen::AlignedBox3d box;
   for (const BodyIndex b : bodies_outwards(m)) {
-    const Eigen::Vector3d origin = to_eigen(w.bodies[b].p);
+    const Eigen::Vector3d origin = to_eigen(w.bodies[b].p_WB);
     box.extend(origin);
     box.extend(origin + to_eigen(w.bodies[b].inertia.h) / model.parameters.bodies[b].mass);
   }

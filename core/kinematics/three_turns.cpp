@@ -67,7 +67,7 @@ Eigen::MatrixXd take_columns_by_turns(const Model& model, const State<double>& s
     Eigen::Matrix3d axes;
     for (int k = 0; k < 3; ++k) axes.col(k) = to_eigen(w.axes[v + k]);
     if (std::abs(axes.determinant()) < kRounding) continue;
-    const Eigen::Matrix3d child = to_eigen(w.bodies[b].r);
+    const Eigen::Matrix3d child = to_eigen(w.bodies[b].R_WB);
     j.middleCols<3>(v.value()) = jacobian.middleCols<3>(v.value()) * (axes.inverse() * child);
   }
   return take_columns(j, columns);

@@ -142,7 +142,7 @@ std::vector<TransmissionLoop::Place> TransmissionLoop::places_at(
       places.push_back({frame.position, frame.rotation});
     } else {
       const BodyState<double>& body = w.bodies[one->body];
-      places.push_back({to_eigen(body.p), to_eigen(body.r)});
+      places.push_back({to_eigen(body.p_WB), to_eigen(body.R_WB)});
     }
   }
   return places;

@@ -12,10 +12,11 @@
 
 namespace linkstudy {
 
+// P is the parent's internal frame, J the joint frame in it, before the joint moves.
 template <class Real>
 struct BodyParameters {
-  Mat3<Real> frame;    // R_PJ: joint frame in the parent's internal frame
-  Vec3<Real> origin;   // p_PJ, m
+  Mat3<Real> R_PJ;
+  Vec3<Real> p_PJ;     // m
   Real mass;           // kg
   Vec3<Real> moment;   // mass times centre of mass, internal frame, kg m
   Sym3<Real> inertia;  // about the internal origin, internal axes, kg m^2

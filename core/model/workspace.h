@@ -15,16 +15,17 @@
 
 namespace linkstudy {
 
+// Monogram notation (core/README.md): W is the ground, B the body's internal frame, P its parent's.
 // Vectors in ground axes; moments about the body's own internal origin.
 template <class Real>
 struct BodyState {
-  Mat3<Real> r;             // R_WB
-  Vec3<Real> p;             // internal origin, m
-  Vec3<Real> shift;         // p less the parent's p
-  Vec3<Real> omega;         // angular velocity
-  Vec3<Real> v;             // velocity of the origin
-  Vec3<Real> alpha;         // angular acceleration for qdd = 0, prescribed ones aside
-  Vec3<Real> a;             // acceleration of the origin then, less gravity
+  Mat3<Real> R_WB;
+  Vec3<Real> p_WB;          // m
+  Vec3<Real> p_PB_W;        // p_WB less that of the parent
+  Vec3<Real> w_WB;          // angular velocity
+  Vec3<Real> v_WB;          // velocity of the origin
+  Vec3<Real> alpha_WB;      // angular acceleration for qdd = 0, prescribed ones aside
+  Vec3<Real> a_WB;          // acceleration of the origin then, less gravity
   Inertia<Real> inertia;    // of the body and, in `composite`, of all bodies outboard
   Inertia<Real> composite;  // of bodies that carry others; else `inertia` is meant
   Wrench<Real> wrench;      // that moves the body (then: and all outboard) with qdd = 0

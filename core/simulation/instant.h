@@ -217,7 +217,7 @@ class Instant {
     const bool local =
         c.quantity == Quantity::joint_force_local || c.quantity == Quantity::joint_torque_local;
     const Vec3<Real>& ground = force ? f.force : f.moment;
-    return component(local ? transpose_times(b.r, ground) : ground, c.component);
+    return component(local ? transpose_times(b.R_WB, ground) : ground, c.component);
   }
 
   const Mechanism& m_;

@@ -59,15 +59,16 @@ class Recursion {
  private:
   MovingFrame frame_of(const BodyState<double>& body) const {
     MovingFrame frame;
-    const Eigen::Matrix3d W = cross_matrix(to_vector(body.omega));
+    const Eigen::Matrix3d W = cross_matrix(to_vector(body.w_WB));
     Eigen::Matrix3d R;
-    R << to_vector(body.r.x), to_vector(body.r.y), to_vector(body.r.z);
+    R << to_vector(body.R_WB.x), to_vector(body.R_WB.y), to_vector(body.R_WB.z);
     frame.T.topLeftCorner<3, 3>() = R;
-    frame.T.topRightCorner<3, 1>() = to_vector(body.p);
+    frame.T.topRightCorner<3, 1>() = to_vector(body.p_WB);
     frame.T_dot.topLeftCorner<3, 3>() = W * R;
-    frame.T_dot.topRightCorner<3, 1>() = to_vector(body.v);
-    frame.T_ddot.topLeftCorner<3, 3>() = (cross_matrix(to_vector(body.alpha)) + W * W) * R;
-    frame.T_ddot.topRightCorner<3, 1>() = to_vector(body.a) + to_vector(model_.parameters.gravity);
+    frame.T_dot.topRightCorner<3, 1>() = to_vector(body.v_WB);
+    frame.T_ddot.topLeftCorner<3, 3>() = (cross_matrix(to_vector(body.alpha_WB)) + W * W) * R;
+    frame.T_ddot.topRightCorner<3, 1>() =
+        to_vector(body.a_WB) + to_vector(model_.parameters.gravity);
     return frame;
   }
 
