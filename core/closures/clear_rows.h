@@ -25,17 +25,16 @@ inline constexpr double kClearPart = 3.0 * DriftTolerance::most;
 // J C^-2 J^T in Workspace::independence, C = 1 / shortest for velocities that slide, else 1.
 template <class Real>
 inline void sum_independence(const Mechanism& m, Real shortest, Workspace<Real>& w) {
-  const int nv = m.nv, nc = m.cut_row_count();
-  const Real* j = w.cut_jacobian.data();
+  const auto j = w.cut_jacobian.view();
   const Real slide = shortest * shortest;
-  for (const int r : indices(nc)) {
-    for (const int s : indices(r + 1)) {
+  for (const RowIndex r : indices_of(m.cut_rows)) {
+    for (const RowIndex s : indices(r + 1)) {
       Real turns(0.0), slides(0.0);
-      for (const int k : support_of_row(m, r)) {
-        Real& sum = at(m.velocities, k).kind == VelocityKind::translation ? slides : turns;
-        sum = madd(j[r * nv + k], j[s * nv + k], sum);
+      for (const VelocityIndex k : support_of_row(m, r)) {
+        Real& sum = m.velocities[k].kind == VelocityKind::translation ? slides : turns;
+        sum = madd(j(r, k), j(s, k), sum);
       }
-      at(w.independence, r * nc + s) = madd(slide, slides, turns);
+      w.independence(r, s) = madd(slide, slides, turns);
     }
   }
 }
@@ -45,12 +44,13 @@ template <class Real>
 inline auto rows_are_clear(const Mechanism& m, const Parameters<Real>& p, Workspace<Real>& w) {
   update_row_scales(m, p, w);
   Real shortest(std::numeric_limits<double>::infinity());
-  for (const int r : indices(m.cut_row_count())) {
-    if (!measures_turn(at(m.cut_rows, r).kind)) shortest = min(shortest, at(w.row_scale, r));
+  for (const RowIndex r : indices_of(m.cut_rows)) {
+    if (!measures_turn(m.cut_rows[r].kind)) shortest = min(shortest, w.row_scale[r]);
   }
   sum_independence(m, shortest, w);
-  const auto limit = [&w](int r) {
-    return Real(kClearPart * kClearPart) * at(w.row_scale, r) * at(w.row_scale, r);
+  const auto limit = [&w](int number) {
+    const RowIndex r(number);
+    return Real(kClearPart * kClearPart) * w.row_scale[r] * w.row_scale[r];
   };
   return factorize_above(m.cut_row_count(), limit, w.independence.data(),
                          w.independence_inverse.data());

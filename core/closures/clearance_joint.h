@@ -38,28 +38,28 @@ template <class Real, class Mask, class W>
 inline Real contact_friction(const ClearanceStructure& structure, const ContactStructure& contact,
                              const ClearanceParameters<Real>& n, const Mask& acts,
                              ContactState<Real>& s, W& w) {
-  if (contact.z < 0) return Real(0.0);
-  const Real z = at(w.z, contact.z);
+  if (!contact.z.exists()) return Real(0.0);
+  const Real z = w.z[contact.z];
   const Real free_rate = free_bristle_rate(structure.free_bristle, n, z);
   if (!any(acts)) {
-    at(w.z_rate, contact.z) = free_rate;
+    w.z_rate[contact.z] = free_rate;
     return Real(0.0);
   }
   const LugreState<Real> f = lugre_friction(n.friction, z, s.speed);
-  at(w.z_rate, contact.z) = select(acts, f.z_rate, free_rate);
+  w.z_rate[contact.z] = select(acts, f.z_rate, free_rate);
   s.relaxation = select(acts, f.relaxation, Real(0.0));
   return f.mu * s.normal;
 }
 
 template <class Real>
-[[gnu::noinline]] void add_contact(const Mechanism& m, int c, int i,
+[[gnu::noinline]] void add_contact(const Mechanism& m, ClearanceIndex c, ContactIndex i,
                                    const JournalInBearing<Real>& j,
                                    const ClearanceParameters<Real>& n, ClosureState<Real>& x,
                                    Workspace<Real>& w) {
-  const ClearanceStructure& structure = at(m.clearances, c);
-  const ContactStructure& contact = at(m.contacts, i);
-  const ContactMemory<Real>& memory = at(w.memory, i);
-  ContactState<Real>& s = at(w.contacts, i);
+  const ClearanceStructure& structure = m.clearances[c];
+  const ContactStructure& contact = m.contacts[i];
+  const ContactMemory<Real>& memory = w.memory[i];
+  ContactState<Real>& s = w.contacts[i];
   const ContactGeometry<Real> k = contact_geometry(j, contact, n);
   s.eccentricity = Real(-1.0) * k.x;
   s.depth = k.depth;
@@ -88,14 +88,14 @@ template <class Real>
 template <class Real>
 inline void add_clearance_joints(const Mechanism& m, const Parameters<Real>& p,
                                  Workspace<Real>& w) {
-  BodyState<Real>* bodies = w.bodies.data();
-  for_journals(m, p, w, [&](int c, const JournalInBearing<Real>& j) {
-    const int index = at(m.clearances, c).closure;
-    const ClosureStructure& closure = at(m.closures, index);
-    ClosureState<Real>& x = at(w.closures, index);
+  BodyStates<Real>& bodies = w.bodies;
+  for_journals(m, p, w, [&](ClearanceIndex c, const JournalInBearing<Real>& j) {
+    const ClosureIndex index = m.clearances[c].closure;
+    const ClosureStructure& closure = m.closures[index];
+    ClosureState<Real>& x = w.closures[index];
     x.contact_force = x.contact_moment = x.contact_surplus = zero3<Real>();
-    for (const int i : contacts_of(at(m.clearances, c))) {
-      add_contact(m, c, i, j, at(p.clearances, c), x, w);
+    for (const ContactIndex i : contacts_of(m.clearances[c])) {
+      add_contact(m, c, i, j, p.clearances[c], x, w);
     }
     subtract_contact_forces(closure, x, bodies, bodies[closure.first].wrench,
                             bodies[closure.second].wrench);

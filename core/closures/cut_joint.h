@@ -23,11 +23,10 @@ inline constexpr double kClearPivot = 1e-4;
 // Takes the columns of driven coordinates out of J (core/dynamics/driven_coordinates.h).
 template <class Real>
 inline void take_driven_columns(const Mechanism& m, Workspace<Real>& w) {
-  const int nc = m.cut_row_count();
-  for (const int i : indices_of(m.motions)) {
-    for (const int r : indices(nc)) {
-      Real& entry = at(w.cut_jacobian, r * m.nv + at(m.motions, i).v);
-      at(w.motion_rows, i * nc + r) = entry;
+  for (const MotionIndex i : indices_of(m.motions)) {
+    for (const RowIndex r : indices_of(m.cut_rows)) {
+      Real& entry = w.cut_jacobian(r, m.motions[i].v);
+      w.motion_rows(i, r) = entry;
       entry = Real(0.0);
     }
   }
@@ -36,20 +35,23 @@ inline void take_driven_columns(const Mechanism& m, Workspace<Real>& w) {
 // Workspace::cut_jacobian, zero off the supports of the closures and at driven coordinates.
 template <class Real>
 inline void update_jacobian(const Mechanism& m, const Parameters<Real>& p, Workspace<Real>& w) {
-  for (const int c : indices_of(m.closures)) {
-    const ClosureStructure& closure = at(m.closures, c);
+  for (const ClosureIndex c : indices_of(m.closures)) {
+    const ClosureStructure& closure = m.closures[c];
     if (storage_of(closure.model) != RowStorage::cut) continue;
-    const auto row = [&](int r) { return w.cut_jacobian.data() + r * m.nv; };
-    for (const int r : rows_of(closure))
-      for (const int k : support_of(m, closure)) row(r)[k] = Real(0.0);
-    if (closure.point_rows) add_point_rates(m, p, w, c, row(closure.row_begin));
-    for (const int r : other_rows_of(closure)) {
-      add_row_rates(m, p, w, c, at(m.cut_rows, r), at(w.cut_rows, r), row(r));
+    const auto row = [&w](RowIndex r) { return w.cut_jacobian.row(r); };
+    for (const RowIndex r : rows_of(closure))
+      for (const VelocityIndex k : support_of(m, closure)) row(r)[k] = Real(0.0);
+    if (closure.point_rows) {
+      const RowIndex first = closure.row_begin;
+      add_point_rates(m, p, w, c, row(first), row(first + 1), row(first + 2));
+    }
+    for (const RowIndex r : other_rows_of(closure)) {
+      add_row_rates(m, p, w, c, m.cut_rows[r], w.cut_rows[r], row(r));
     }
   }
-  for (const int i : indices_of(m.couplings)) {
-    Real* row = w.cut_jacobian.data() + at(m.couplings, i).row * m.nv;
-    for (const int k : support_of(m, at(m.couplings, i))) row[k] = Real(0.0);
+  for (const CouplingIndex i : indices_of(m.couplings)) {
+    const Velocities<Real> row = w.cut_jacobian.row(m.couplings[i].row);
+    for (const VelocityIndex k : support_of(m, m.couplings[i])) row[k] = Real(0.0);
     add_coupling_rates(m, p, i, row);
   }
   take_driven_columns(m, w);
@@ -60,26 +62,25 @@ template <class Real>
 inline void update_constraint_factor(const Mechanism& m, const Parameters<Real>& p,
                                      Workspace<Real>& w) {
   update_jacobian(m, p, w);
-  const Real* h = w.mass.data();
-  const int nv = m.nv;
-  for (const int c : indices_of(m.closures)) {
-    const ClosureStructure& closure = at(m.closures, c);
+  const auto h = w.mass.view();
+  const auto y = w.cut_y.view();
+  for (const ClosureIndex c : indices_of(m.closures)) {
+    const ClosureStructure& closure = m.closures[c];
     if (storage_of(closure.model) != RowStorage::cut) continue;
-    Real* y = w.cut_y.data();
-    for (const int r : rows_of(closure))
-      for (const int k : support_of(m, closure)) y[r * nv + k] = at(w.cut_jacobian, r * nv + k);
-    for (const int k : support_of(m, closure)) {
-      for (const int a : ancestors(m, k)) {
-        const Real l = h[k * nv + a];
-        for (const int r : rows_of(closure)) y[r * nv + a] = nmadd(l, y[r * nv + k], y[r * nv + a]);
+    for (const RowIndex r : rows_of(closure))
+      for (const VelocityIndex k : support_of(m, closure)) y(r, k) = w.cut_jacobian(r, k);
+    for (const VelocityIndex k : support_of(m, closure)) {
+      for (const VelocityIndex a : ancestors(m, k)) {
+        const Real l = h(k, a);
+        for (const RowIndex r : rows_of(closure)) y(r, a) = nmadd(l, y(r, k), y(r, a));
       }
     }
   }
   for (const CouplingStructure& c : m.couplings) {
-    Real* y = w.cut_y.data() + c.row * nv;
-    for (const int k : support_of(m, c)) y[k] = at(w.cut_jacobian, c.row * nv + k);
-    for (const int k : support_of(m, c)) {
-      for (const int a : ancestors(m, k)) y[a] = nmadd(h[k * nv + a], y[k], y[a]);
+    for (const VelocityIndex k : support_of(m, c)) y(c.row, k) = w.cut_jacobian(c.row, k);
+    for (const VelocityIndex k : support_of(m, c)) {
+      for (const VelocityIndex a : ancestors(m, k))
+        y(c.row, a) = nmadd(h(k, a), y(c.row, k), y(c.row, a));
     }
   }
 }
@@ -95,18 +96,16 @@ inline void with_row_count(const Mechanism& m, F&& f) {
 }
 
 // A = Y^T D^-1 Y, (nc, nc), summed over the velocities that reach some closure.
-template <class Size, class Real>
-inline void sum_schur_complement(Size nc, const Mechanism& m, Workspace<Real>& w) {
-  const int nv = m.nv;
-  const Real* y = w.cut_y.data();
-  Real* a = w.schur.data();
-  for (const int r : indices(nc)) {
-    for (const int s : indices(r + 1)) {
+template <class Real>
+inline void sum_schur_complement(const Mechanism& m, Workspace<Real>& w) {
+  const auto y = w.cut_y.view();
+  for (const RowIndex r : indices_of(m.cut_rows)) {
+    for (const RowIndex s : indices(r + 1)) {
       Real sum(0.0);
-      for (const int k : support_of_row(m, r)) {
-        sum = madd(y[r * nv + k] * at(w.inverse_pivot, k), y[s * nv + k], sum);
+      for (const VelocityIndex k : support_of_row(m, r)) {
+        sum = madd(y(r, k) * w.inverse_pivot[k], y(s, k), sum);
       }
-      a[r * nc + s] = sum;
+      w.schur(r, s) = sum;
     }
   }
 }
@@ -121,15 +120,17 @@ inline auto factorize_schur(const Mechanism& m, const Parameters<Real>& p, Works
   if (!has_rows_of_two_units(m)) {
     auto clear = Real(0.0) == Real(1.0);
     with_row_count(m, [&](auto nc) {
-      sum_schur_complement(nc, m, w);
+      sum_schur_complement(m, w);
       clear = factorize_definite(nc, Real(kClearPivot), a, w.row_inverse.data());
     });
     return clear;
   }
-  const int nc = m.cut_row_count();
-  sum_schur_complement(nc, m, w);
-  const auto own = [a, nc](int r) { return Real(kClearPivot) * a[r * nc + r]; };
-  const auto definite = factorize_above(nc, own, a, w.row_inverse.data());
+  sum_schur_complement(m, w);
+  const auto own = [&w](int number) {
+    const RowIndex r(number);
+    return Real(kClearPivot) * w.schur(r, r);
+  };
+  const auto definite = factorize_above(m.cut_row_count(), own, a, w.row_inverse.data());
   return definite && rows_are_clear(m, p, w);
 }
 
@@ -164,20 +165,23 @@ inline void solve_schur(const Mechanism& m, Workspace<Real>& w) {
 
 // Y^T D^-1 x for row r
 template <class Real>
-inline Real project_on_row(const Mechanism& m, const Workspace<Real>& w, int r, const Real* x) {
-  const Real* y = w.cut_y.data() + r * m.nv;
+inline Real project_on_row(const Mechanism& m, const Workspace<Real>& w, RowIndex r,
+                           Velocities<const Real> x) {
+  const Velocities<const Real> y = w.cut_y.row(r);
   Real sum(0.0);
-  for (const int k : support_of_row(m, r)) sum = madd(y[k] * at(w.inverse_pivot, k), x[k], sum);
+  for (const VelocityIndex k : support_of_row(m, r))
+    sum = madd(y[k] * w.inverse_pivot[k], x[k], sum);
   return sum;
 }
 
 // x := x - Y schur_rhs
 template <class Real>
-inline void subtract_constraint_forces(const Mechanism& m, const Workspace<Real>& w, Real* x) {
-  for (const int r : indices(m.cut_row_count())) {
-    const Real* y = w.cut_y.data() + r * m.nv;
-    const Real lambda = at(w.schur_rhs, r);
-    for (const int k : support_of_row(m, r)) x[k] = nmadd(lambda, y[k], x[k]);
+inline void subtract_constraint_forces(const Mechanism& m, const Workspace<Real>& w,
+                                       Velocities<Real> x) {
+  for (const RowIndex r : indices_of(m.cut_rows)) {
+    const Velocities<const Real> y = w.cut_y.row(r);
+    const Real lambda = w.schur_rhs[r];
+    for (const VelocityIndex k : support_of_row(m, r)) x[k] = nmadd(lambda, y[k], x[k]);
   }
 }
 
@@ -193,10 +197,10 @@ inline void update_cut_joints(const Mechanism& m, const Parameters<Real>& p, Wor
 
 // bias - s. Couplings are linear: what keeps their rates keeps them.
 template <class Real>
-inline Real stabilized_bias(const Mechanism& m, const Parameters<Real>& p, int r,
+inline Real stabilized_bias(const Mechanism& m, const Parameters<Real>& p, RowIndex r,
                             const RowState<Real>& row) {
-  if (is_of_coupling(at(m.cut_rows, r).kind)) return row.bias;
-  const ClosureParameters<Real>& n = at(p.closures, at(m.cut_rows, r).closure);
+  if (is_of_coupling(m.cut_rows[r].kind)) return row.bias;
+  const ClosureParameters<Real>& n = p.closures[m.cut_rows[r].closure];
   return madd(n.velocity_gain, row.rate, madd(n.position_gain, row.d, row.bias));
 }
 
@@ -204,14 +208,14 @@ inline Real stabilized_bias(const Mechanism& m, const Parameters<Real>& p, int r
 template <class Real>
 inline void solve_cut_joints(const Mechanism& m, const Parameters<Real>& p, Workspace<Real>& w) {
   if (m.cut_rows.empty()) return;
-  for (const int r : indices(m.cut_row_count())) {
-    const RowState<Real>& row = at(w.cut_rows, r);
-    at(w.schur_rhs, r) = project_on_row(m, w, r, w.y.data()) + stabilized_bias(m, p, r, row);
+  for (const RowIndex r : indices_of(m.cut_rows)) {
+    const RowState<Real>& row = w.cut_rows[r];
+    w.schur_rhs[r] = project_on_row(m, w, r, w.y) + stabilized_bias(m, p, r, row);
   }
   solve_schur(m, w);
-  for (const int r : indices(m.cut_row_count())) at(w.cut_rows, r).value = at(w.schur_rhs, r);
+  for (const RowIndex r : indices_of(m.cut_rows)) w.cut_rows[r].value = w.schur_rhs[r];
   sum_row_forces<RowStorage::cut>(m, w);
-  subtract_constraint_forces(m, w, w.y.data());
+  subtract_constraint_forces(m, w, w.y);
 }
 
 }  // namespace linkstudy

@@ -11,37 +11,36 @@ namespace linkstudy {
 // Solves for the rows of projecting closures only; rows of the others get zero.
 // schur_rhs holds the residual to remove; dv := -M^-1 J^T A^-1 schur_rhs.
 template <class Real>
-inline void solve_correction(const Mechanism& m, Workspace<Real>& w, Real* dv) {
+inline void solve_correction(const Mechanism& m, Workspace<Real>& w, Velocities<Real> dv) {
   solve_schur(m, w);
-  for (const int k : velocities(m)) dv[k] = Real(0.0);
+  for (const VelocityIndex k : velocities(m)) dv[k] = Real(0.0);
   subtract_constraint_forces(m, w, dv);
-  for (const int k : velocities(m)) dv[k] = dv[k] * at(w.inverse_pivot, k);
-  solve_branch(m, w.mass.data(), dv);
+  for (const VelocityIndex k : velocities(m)) dv[k] = dv[k] * w.inverse_pivot[k];
+  solve_branch(m, w.mass.view(), dv);
 }
 
-[[gnu::always_inline]] inline bool projects(const Mechanism& m, int row) {
-  const Row& r = at(m.cut_rows, row);
-  return is_of_coupling(r.kind) ||
-         at(m.closures, r.closure).stabilization == Stabilization::projection;
+[[gnu::always_inline]] inline bool projects(const Mechanism& m, RowIndex row) {
+  const Row& r = m.cut_rows[row];
+  return is_of_coupling(r.kind) || m.closures[r.closure].stabilization == Stabilization::projection;
 }
 
 // Kinematics and mass matrix factor of (q, v) are in w. dv is (nv) scratch.
 template <class Real>
-inline void project(const Mechanism& m, const Parameters<Real>& p, Real* q, Real* v, Real* dv,
-                    Workspace<Real>& w) {
+inline void project(const Mechanism& m, const Parameters<Real>& p, Positions<Real> q,
+                    Velocities<Real> v, Velocities<Real> dv, Workspace<Real>& w) {
   update_rows<RowStorage::cut>(m, p, w);
   update_constraint_factor(m, p, w);
   update_schur_complement(m, p, w);
-  for (const int r : indices(m.cut_row_count())) {
-    at(w.schur_rhs, r) = projects(m, r) ? at(w.cut_rows, r).d : Real(0.0);
+  for (const RowIndex r : indices_of(m.cut_rows)) {
+    w.schur_rhs[r] = projects(m, r) ? w.cut_rows[r].d : Real(0.0);
   }
   solve_correction(m, w, dv);
-  displace(m, dv, q);
-  for (const int r : indices(m.cut_row_count())) {
-    at(w.schur_rhs, r) = projects(m, r) ? at(w.cut_rows, r).rate : Real(0.0);
+  displace(m, dv, q.data());
+  for (const RowIndex r : indices_of(m.cut_rows)) {
+    w.schur_rhs[r] = projects(m, r) ? w.cut_rows[r].rate : Real(0.0);
   }
   solve_correction(m, w, dv);
-  for (const int k : velocities(m)) v[k] = v[k] + dv[k];
+  for (const VelocityIndex k : velocities(m)) v[k] = v[k] + dv[k];
 }
 
 }  // namespace linkstudy

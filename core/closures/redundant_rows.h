@@ -39,11 +39,11 @@ inline constexpr unsigned kAllLanes = (1u << RealTraits<Real>::lanes) - 1u;
 // end to ground and not on that of the other.
 template <class F>
 inline void for_relative_velocities(const Mechanism& m, const ClosureStructure& c, F&& f) {
-  int a = c.last_1, b = c.last_2;
+  VelocityIndex a = c.last_1, b = c.last_2;
   while (a != b) {
-    int& last = a > b ? a : b;
+    VelocityIndex& last = a > b ? a : b;
     f(last);
-    last = at(m.v_parent, last);
+    last = m.v_parent[last];
   }
 }
 
@@ -56,26 +56,26 @@ inline Real largest_component(const Vec3<Real>& a) {
 // is more; m.
 template <class Real>
 inline Real distance_from_axis(const Mechanism& m, const Parameters<Real>& p,
-                               const Workspace<Real>& w, int k, const Vec3<Real>& point) {
-  const Velocity& v = at(m.velocities, k);
-  const Vec3<Real> turned = cross(at(w.axes, k), point - at(w.bodies, v.body).p);
+                               const Workspace<Real>& w, VelocityIndex k, const Vec3<Real>& point) {
+  const Velocity& v = m.velocities[k];
+  const Vec3<Real> turned = cross(w.axes[k], point - w.bodies[v.body].p_WB);
   const Real distance = sqrt(dot(turned, turned));
-  return v.kind == VelocityKind::screw ? max(distance, abs(at(p.pitch, v.stage))) : distance;
+  return v.kind == VelocityKind::screw ? max(distance, abs(p.pitch[v.stage])) : distance;
 }
 
 // l of a closure; 0 where nothing turns its ends against each other.
 template <class Real>
 inline Real closure_lever(const Mechanism& m, const Parameters<Real>& p, const Workspace<Real>& w,
-                          int closure) {
-  const Vec3<Real>& point = at(w.closures, closure).p2;
+                          ClosureIndex closure) {
+  const Vec3<Real>& point = w.closures[closure].p2;
   Real square(0.0), extent(0.0);
   int count = 0;
-  for_relative_velocities(m, at(m.closures, closure), [&](int k) {
-    const Velocity& v = at(m.velocities, k);
+  for_relative_velocities(m, m.closures[closure], [&](VelocityIndex k) {
+    const Velocity& v = m.velocities[k];
     if (v.kind == VelocityKind::translation) return;
     const Real distance = distance_from_axis(m, p, w, k, point);
     square = madd(distance, distance, square);
-    extent = max(extent, largest_component(at(w.bodies, v.body).p));
+    extent = max(extent, largest_component(w.bodies[v.body].p_WB));
     ++count;
   });
   if (count == 0) return Real(0.0);
@@ -88,31 +88,31 @@ inline Real closure_lever(const Mechanism& m, const Parameters<Real>& p, const W
 template <class Real>
 inline void update_row_scales(const Mechanism& m, const Parameters<Real>& p, Workspace<Real>& w) {
   Real longest(0.0);
-  for (const int c : indices_of(m.closures)) {
-    if (storage_of(at(m.closures, c).model) != RowStorage::cut) continue;
+  for (const ClosureIndex c : indices_of(m.closures)) {
+    if (storage_of(m.closures[c].model) != RowStorage::cut) continue;
     const Real lever = closure_lever(m, p, w, c);
     longest = max(longest, lever);
-    for (const int r : rows_of(at(m.closures, c))) at(w.row_scale, r) = lever;
+    for (const RowIndex r : rows_of(m.closures[c])) w.row_scale[r] = lever;
   }
-  for (const CouplingStructure& c : m.couplings) at(w.row_scale, c.row) = Real(0.0);
+  for (const CouplingStructure& c : m.couplings) w.row_scale[c.row] = Real(0.0);
   longest = select(longest > Real(0.0), longest, Real(1.0));
-  for (const int r : indices(m.cut_row_count())) {
-    Real& s = at(w.row_scale, r);
+  for (const RowIndex r : indices_of(m.cut_rows)) {
+    Real& s = w.row_scale[r];
     s = select(s > Real(0.0), s, longest);
-    if (measures_turn(at(m.cut_rows, r).kind)) s = Real(1.0);
+    if (measures_turn(m.cut_rows[r].kind)) s = Real(1.0);
   }
 }
 
 // Largest part of a unit of row r's scaled rate that velocity k can have.
 template <class Real>
 inline Real scaled_bound(const Mechanism& m, const Parameters<Real>& p, const Workspace<Real>& w,
-                         int k, int r) {
-  const Row& row = at(m.cut_rows, r);
-  const bool slides = at(m.velocities, k).kind == VelocityKind::translation;
+                         VelocityIndex k, RowIndex r) {
+  const Row& row = m.cut_rows[r];
+  const bool slides = m.velocities[k].kind == VelocityKind::translation;
   if (measures_turn(row.kind)) return Real(slides ? 0.0 : 1.0);
-  const Real inverse = Real(1.0) / at(w.row_scale, r);
+  const Real inverse = Real(1.0) / w.row_scale[r];
   if (slides) return inverse;
-  const Vec3<Real>& point = at(w.closures, row.closure).p2;
+  const Vec3<Real>& point = w.closures[row.closure].p2;
   return max(distance_from_axis(m, p, w, k, point) * inverse, Real(kLeastLever));
 }
 
@@ -120,24 +120,24 @@ inline Real scaled_bound(const Mechanism& m, const Parameters<Real>& p, const Wo
 template <class Real>
 inline void update_velocity_scales(const Mechanism& m, const Parameters<Real>& p,
                                    Workspace<Real>& w) {
-  for (const int k : velocities(m)) at(w.velocity_scale, k) = Real(0.0);
-  for (const int c : indices_of(m.closures)) {
-    if (storage_of(at(m.closures, c).model) != RowStorage::cut) continue;
-    for_relative_velocities(m, at(m.closures, c), [&](int k) {
-      Real& scale = at(w.velocity_scale, k);
-      for (const int r : rows_of(at(m.closures, c))) {
+  for (const VelocityIndex k : velocities(m)) w.velocity_scale[k] = Real(0.0);
+  for (const ClosureIndex c : indices_of(m.closures)) {
+    if (storage_of(m.closures[c].model) != RowStorage::cut) continue;
+    for_relative_velocities(m, m.closures[c], [&](VelocityIndex k) {
+      Real& scale = w.velocity_scale[k];
+      for (const RowIndex r : rows_of(m.closures[c])) {
         scale = max(scale, scaled_bound(m, p, w, k, r));
       }
     });
   }
   for (const CouplingStructure& c : m.couplings) {
-    for (const int n : terms_of(c)) {
-      Real& scale = at(w.velocity_scale, at(m.coupling_terms, n).v);
-      scale = max(scale, abs(at(p.coupling_factors, n)) / at(w.row_scale, c.row));
+    for (const TermIndex n : terms_of(c)) {
+      Real& scale = w.velocity_scale[m.coupling_terms[n].v];
+      scale = max(scale, abs(p.coupling_factors[n]) / w.row_scale[c.row]);
     }
   }
-  for (const int k : velocities(m)) {
-    Real& scale = at(w.velocity_scale, k);
+  for (const VelocityIndex k : velocities(m)) {
+    Real& scale = w.velocity_scale[k];
     scale = select(scale > Real(0.0), scale, Real(1.0));
   }
 }
@@ -146,8 +146,8 @@ inline void update_velocity_scales(const Mechanism& m, const Parameters<Real>& p
 template <class Real>
 inline Real largest_gap(const Mechanism& m, const Workspace<Real>& w) {
   Real gap(0.0);
-  for (const int r : indices(m.cut_row_count())) {
-    gap = max(gap, abs(at(w.cut_rows, r).d) / at(w.row_scale, r));
+  for (const RowIndex r : indices_of(m.cut_rows)) {
+    gap = max(gap, abs(w.cut_rows[r].d) / w.row_scale[r]);
   }
   return gap;
 }
@@ -162,11 +162,12 @@ inline void factorize_redundant_rows(const Mechanism& m, const Parameters<Real>&
   const Real by_gap = Real(DriftTolerance::per_gap) * largest_gap(m, w);
   const Real tolerance = min(max(by_gap, Real(DriftTolerance::least)), Real(DriftTolerance::most));
   RedundantSystem<Real>& system = w.redundant_system;
-  std::copy(w.row_scale.begin(), w.row_scale.end(), system.row_scale());
-  std::copy(w.cut_jacobian.begin(), w.cut_jacobian.end(), system.jacobian());
-  std::copy(w.cut_y.begin(), w.cut_y.end(), system.factor());
-  std::copy(w.velocity_scale.begin(), w.velocity_scale.end(), system.column_scale());
-  std::copy(w.inverse_pivot.begin(), w.inverse_pivot.end(), system.inverse_pivot());
+  const auto copy = [](const auto& from, Real* to) { std::copy_n(from.data(), from.size(), to); };
+  copy(w.row_scale, system.row_scale());
+  copy(w.cut_jacobian, system.jacobian());
+  copy(w.cut_y, system.factor());
+  copy(w.velocity_scale, system.column_scale());
+  copy(w.inverse_pivot, system.inverse_pivot());
   system.reduce(tolerance);
   system.factorize();
   w.kept_rows = select(w.redundant, system.rank(), w.kept_rows);
@@ -180,9 +181,9 @@ inline void solve_beside_redundant_rows(Workspace<Real>& w, Solve&& solve_others
   std::copy(w.schur_rhs.begin(), w.schur_rhs.end(), system.right_hand_side());
   system.solve();
   if (!all(w.redundant)) solve_others();
-  for (const int r : indices_of(w.schur_rhs)) {
-    Real& lambda = at(w.schur_rhs, r);
-    lambda = select(w.redundant, system.right_hand_side()[r], lambda);
+  for (const RowIndex r : indices_of(w.schur_rhs)) {
+    Real& lambda = w.schur_rhs[r];
+    lambda = select(w.redundant, system.right_hand_side()[r.value()], lambda);
   }
 }
 

@@ -17,19 +17,19 @@ template <class Real>
 inline void add_replacement_joints(const Mechanism& m, const Parameters<Real>& p,
                                    Workspace<Real>& w) {
   update_rows<RowStorage::sde>(m, p, w);
-  for (const int i : indices(m.sde_row_count())) {
-    RowState<Real>& row = at(w.sde_rows, i);
-    const SpringParameters<Real>& n = at(p.springs, i);
+  for (const RowIndex i : indices_of(m.sde_rows)) {
+    RowState<Real>& row = w.sde_rows[i];
+    const SpringParameters<Real>& n = p.springs[i];
     const Real damping_force = n.damping * row.rate;
     row.value = madd(n.stiffness, row.d, damping_force);
     w.dissipated_power = madd(damping_force, row.rate, w.dissipated_power);
   }
   sum_row_forces<RowStorage::sde>(m, w);
-  BodyState<Real>* bodies = w.bodies.data();
-  for (const int i : indices_of(m.closures)) {
-    const ClosureStructure& c = at(m.closures, i);
+  BodyStates<Real>& bodies = w.bodies;
+  for (const ClosureIndex i : indices_of(m.closures)) {
+    const ClosureStructure& c = m.closures[i];
     if (storage_of(c.model) != RowStorage::sde) continue;
-    subtract_closure_forces(c, at(w.closures, i), bodies, bodies[c.first].wrench,
+    subtract_closure_forces(c, w.closures[i], bodies, bodies[c.first].wrench,
                             bodies[c.second].wrench);
   }
 }

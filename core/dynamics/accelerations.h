@@ -8,11 +8,11 @@ namespace linkstudy {
 
 template <class Real>
 inline void solve_accelerations(const Mechanism& m, const Parameters<Real>& p, Workspace<Real>& w) {
-  for (const int k : velocities(m)) at(w.y, k) = at(w.tau, k);
-  solve_branch_transposed(m, w.mass.data(), w.y.data());
+  for (const VelocityIndex k : velocities(m)) w.y[k] = w.tau[k];
+  solve_branch_transposed(m, w.mass.view(), Velocities<Real>(w.y));
   solve_cut_joints(m, p, w);
-  for (const int k : velocities(m)) at(w.qdd, k) = at(w.y, k) * at(w.inverse_pivot, k);
-  solve_branch(m, w.mass.data(), w.qdd.data());
+  for (const VelocityIndex k : velocities(m)) w.qdd[k] = w.y[k] * w.inverse_pivot[k];
+  solve_branch(m, w.mass.view(), Velocities<Real>(w.qdd));
 }
 
 }  // namespace linkstudy

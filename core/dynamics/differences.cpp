@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/dynamics/motion.h"
+#include "core/model/walk.h"
 #include "core/spatial/to_eigen.h"
 
 namespace linkstudy {
@@ -25,19 +26,19 @@ Extent compute_extent(const Model& model, const State<double>& s) {
     box.extend(to_eigen(point));
     extent.farthest = std::max(extent.farthest, to_eigen(point).norm());
   };
-  for (std::size_t b = 1; b < m.bodies.size(); ++b) {
+  for (const BodyIndex b : bodies_outwards(m)) {
     const BodyParameters<double>& n = model.parameters.bodies[b];
-    add(w.bodies[b].p);
-    add(w.bodies[b].p + w.bodies[b].r * ((1.0 / n.mass) * n.moment));
+    add(w.bodies[b].p_WB);
+    add(w.bodies[b].p_WB + w.bodies[b].R_WB * ((1.0 / n.mass) * n.moment));
   }
   for (const ClosureState<double>& c : w.closures) {
     add(c.p1);
     add(c.p2);
   }
-  for (std::size_t i = 0; i < w.point_springs.size(); ++i) {
+  for (const PointSpringIndex i : indices_of(w.point_springs)) {
     const PointSpringStructure& spring = m.point_springs[i];
-    add(w.bodies[static_cast<std::size_t>(spring.first)].p + w.point_springs[i].arm_1);
-    add(w.bodies[static_cast<std::size_t>(spring.second)].p + w.point_springs[i].arm_2);
+    add(w.bodies[spring.first].p_WB + w.point_springs[i].arm_1);
+    add(w.bodies[spring.second].p_WB + w.point_springs[i].arm_2);
   }
   const double length = box.isEmpty() ? 0.0 : box.diagonal().norm();
   if (length > kCoincidence) extent.length = length;
@@ -48,13 +49,13 @@ Eigen::VectorXd difference_steps(const Model& model, const State<double>& s) {
   const Mechanism& m = model.mechanism;
   const double length = compute_extent(model, s).length;
   Eigen::VectorXd steps(m.nv);
-  for (int k = 0; k < m.nv; ++k) {
-    const Velocity& velocity = m.velocities[static_cast<std::size_t>(k)];
-    const auto stage = static_cast<std::size_t>(velocity.stage);
-    const double advance = std::abs(model.parameters.pitch[stage]);
-    steps[k] = kStep;
-    if (velocity.kind == VelocityKind::translation) steps[k] *= length;
-    if (velocity.kind == VelocityKind::screw) steps[k] *= std::min(1.0, length / advance);
+  for (const VelocityIndex k : velocities(m)) {
+    const Velocity& velocity = m.velocities[k];
+    const double advance = std::abs(model.parameters.pitch[velocity.stage]);
+    double& step = steps[k.value()];
+    step = kStep;
+    if (velocity.kind == VelocityKind::translation) step *= length;
+    if (velocity.kind == VelocityKind::screw) step *= std::min(1.0, length / advance);
   }
   return steps;
 }

@@ -14,25 +14,25 @@
 namespace linkstudy {
 
 template <class Real>
-inline CoordinateMotion<Real> motion_at(const Mechanism& m, const Parameters<Real>& p, int motion,
-                                        Real t) {
-  const MotionStructure& s = at(m.motions, motion);
-  return prescribed_motion(s.law, s.rises, at(p.motions, motion), p.knots.data() + s.knot_begin,
+inline CoordinateMotion<Real> motion_at(const Mechanism& m, const Parameters<Real>& p,
+                                        MotionIndex motion, Real t) {
+  const MotionStructure& s = m.motions[motion];
+  return prescribed_motion(s.law, s.rises, p.motions[motion], p.knots.data() + s.knot_begin.value(),
                            s.knot_end - s.knot_begin, t);
 }
 
 template <class Real>
 inline void update_motions(const Mechanism& m, const Parameters<Real>& p, Real t,
                            Workspace<Real>& w) {
-  for (const int i : indices_of(m.motions)) at(w.motions, i) = motion_at(m, p, i, t);
+  for (const MotionIndex i : indices_of(m.motions)) w.motions[i] = motion_at(m, p, i, t);
 }
 
 // Driven coordinates of a state, q then v, as their laws have them: nothing drifts.
 template <class Real>
-inline void impose_motions(const Mechanism& m, const Parameters<Real>& p, Real t, Real* q,
-                           Real* v) {
-  for (const int i : indices_of(m.motions)) {
-    const MotionStructure& s = at(m.motions, i);
+inline void impose_motions(const Mechanism& m, const Parameters<Real>& p, Real t, Positions<Real> q,
+                           Velocities<Real> v) {
+  for (const MotionIndex i : indices_of(m.motions)) {
+    const MotionStructure& s = m.motions[i];
     const CoordinateMotion<Real> x = motion_at(m, p, i, t);
     q[s.q] = x.q;
     v[s.v] = x.v;
@@ -43,37 +43,36 @@ inline void impose_motions(const Mechanism& m, const Parameters<Real>& p, Real t
 template <class Real>
 inline void take_driven_mass(const Mechanism& m, Workspace<Real>& w) {
   for (const MotionStructure& s : m.motions) {
-    for (int i = s.support_begin; i < s.support_end; ++i) {
-      const int k = at(m.motion_support, i);
-      Real& entry = at(w.mass, k > s.v ? k * m.nv + s.v : s.v * m.nv + k);
-      at(w.motion_mass, i) = entry;
+    for (const MotionSupportIndex i : indices(s.support_begin, s.support_end)) {
+      const VelocityIndex k = m.motion_support[i];
+      Real& entry = k > s.v ? w.mass(k, s.v) : w.mass(s.v, k);
+      w.motion_mass[i] = entry;
       entry = Real(0.0);
     }
-    at(w.mass, s.v * m.nv + s.v) = Real(1.0);
+    w.mass(s.v, s.v) = Real(1.0);
   }
 }
 
 // After the factorisation of M.
 template <class Real>
 inline void fix_driven_coordinates(const Mechanism& m, Workspace<Real>& w) {
-  for (const MotionStructure& s : m.motions) at(w.inverse_pivot, s.v) = Real(0.0);
+  for (const MotionStructure& s : m.motions) w.inverse_pivot[s.v] = Real(0.0);
 }
 
 // Efforts and their power, once accelerations and multipliers are there.
 template <class Real>
 inline void update_efforts(const Mechanism& m, Workspace<Real>& w) {
-  const int nc = m.cut_row_count();
-  for (const int i : indices_of(m.motions)) {
-    const MotionStructure& s = at(m.motions, i);
-    Real effort = -at(w.tau, s.v);
-    for (int n = s.support_begin; n < s.support_end; ++n) {
-      effort = madd(at(w.motion_mass, n), at(w.qdd, at(m.motion_support, n)), effort);
+  for (const MotionIndex i : indices_of(m.motions)) {
+    const MotionStructure& s = m.motions[i];
+    Real effort = -w.tau[s.v];
+    for (const MotionSupportIndex n : indices(s.support_begin, s.support_end)) {
+      effort = madd(w.motion_mass[n], w.qdd[m.motion_support[n]], effort);
     }
-    for (const int r : indices(nc)) {
-      effort = madd(at(w.motion_rows, i * nc + r), at(w.cut_rows, r).value, effort);
+    for (const RowIndex r : indices_of(m.cut_rows)) {
+      effort = madd(w.motion_rows(i, r), w.cut_rows[r].value, effort);
     }
-    at(w.efforts, i) = effort;
-    w.supplied_power = madd(effort, at(w.motions, i).v, w.supplied_power);
+    w.efforts[i] = effort;
+    w.supplied_power = madd(effort, w.motions[i].v, w.supplied_power);
   }
 }
 

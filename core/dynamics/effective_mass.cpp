@@ -27,21 +27,21 @@ double effective(const MatrixXd& rows, const MatrixXd& mass, const std::vector<i
 }
 
 // Springs that are not along three axes resist any translation: J has all three ground axes then.
-MatrixXd translation_jacobian(const Model& model, const Workspace<double>& w, int closure,
+MatrixXd translation_jacobian(const Model& model, const Workspace<double>& w, ClosureIndex closure,
                               const MatrixXd& j) {
-  const ClosureStructure& c = model.mechanism.closures[static_cast<std::size_t>(closure)];
+  const ClosureStructure& c = model.mechanism.closures[closure];
   const auto& rows = model.mechanism.sde_rows;
   int count = 0;
   bool along_axes = true;
-  for (int r = c.row_begin; r < c.row_end; ++r) {
-    const RowKind kind = rows[static_cast<std::size_t>(r)].kind;
+  for (const RowIndex r : rows_of(c)) {
+    const RowKind kind = rows[r].kind;
     if (measures_turn(kind)) continue;
     ++count;
     along_axes =
         along_axes && (kind == RowKind::translation_ground || kind == RowKind::translation_first);
   }
-  if (count == 0 || along_axes) return j.middleRows(c.row_begin, count);
-  std::vector<Row> axes;
+  if (count == 0 || along_axes) return j.middleRows(c.row_begin.value(), count);
+  IndexedVector<RowIndex, Row> axes;
   for (int d = kX; d <= kZ; ++d) {
     axes.push_back({RowKind::translation_ground, closure, d, 0, 1.0, d});
   }
@@ -50,33 +50,32 @@ MatrixXd translation_jacobian(const Model& model, const Workspace<double>& w, in
 
 }  // namespace
 
-EffectiveMass compute_effective_mass(const Model& model, const State<double>& s, int closure) {
+EffectiveMass compute_effective_mass(const Model& model, const State<double>& s,
+                                     ClosureIndex closure) {
   const Mechanism& m = model.mechanism;
   Workspace<double> w = make_workspace<double>(m);
   compute_motion(m, model.parameters, s, w);
   const MatrixXd j = row_jacobian(m, model.parameters, w, m.sde_rows, w.sde_rows);
   const MatrixXd mass = compute_mass_matrix(m, model.parameters, s);
-  const ClosureStructure& c = m.closures[static_cast<std::size_t>(closure)];
+  const ClosureStructure& c = m.closures[closure];
   int rotations = 0;  // after the translations in the rows of a closure
-  for (int r = c.row_begin; r < c.row_end; ++r) {
-    if (is_rotation(m.sde_rows[static_cast<std::size_t>(r)])) ++rotations;
-  }
+  for (const RowIndex r : rows_of(c))
+    if (is_rotation(m.sde_rows[r])) ++rotations;
   const std::vector<int> moving = undriven_velocities(m);
   return {effective(translation_jacobian(model, w, closure, j), mass, moving),
-          effective(j.middleRows(c.row_end - rotations, rotations), mass, moving)};
+          effective(j.middleRows(c.row_end.value() - rotations, rotations), mass, moving)};
 }
 
 void resolve_damping(const Linkage& linkage, const State<double>& s, Model& model) {
-  for (std::size_t i = 0; i < linkage.closures.size(); ++i) {
-    const Closure& closure = linkage.closures[i];
+  for (const ClosureIndex i : indices_of(model.mechanism.closures)) {
+    const Closure& closure = linkage.closures[static_cast<std::size_t>(i.value())];
     if (closure.model != ClosureModel::sde || !closure.sde.damping_ratio) continue;
-    const EffectiveMass mass = compute_effective_mass(model, s, static_cast<int>(i));
+    const EffectiveMass mass = compute_effective_mass(model, s, i);
     const ClosureStructure& c = model.mechanism.closures[i];
-    for (int r = c.row_begin; r < c.row_end; ++r) {
-      const auto row = static_cast<std::size_t>(r);
-      SpringParameters<double>& n = model.parameters.springs[row];
+    for (const RowIndex r : rows_of(c)) {
+      SpringParameters<double>& n = model.parameters.springs[r];
       const double m_eff =
-          is_rotation(model.mechanism.sde_rows[row]) ? mass.rotation : mass.translation;
+          is_rotation(model.mechanism.sde_rows[r]) ? mass.rotation : mass.translation;
       n.damping = 2.0 * *closure.sde.damping_ratio * std::sqrt(n.stiffness * m_eff);
     }
   }

@@ -12,7 +12,8 @@ struct EffectiveMass {
   double rotation = 0.0;     // kg m^2
 };
 
-EffectiveMass compute_effective_mass(const Model& model, const State<double>& s, int closure);
+EffectiveMass compute_effective_mass(const Model& model, const State<double>& s,
+                                     ClosureIndex closure);
 
 // Writes the damping of every sde given by damping_ratio into model.parameters.
 void resolve_damping(const Linkage& linkage, const State<double>& s, Model& model);

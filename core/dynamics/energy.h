@@ -23,36 +23,36 @@ struct Energy {
 };
 
 template <class Real>
-inline Energy<Real> compute_energy(const Mechanism& m, const Parameters<Real>& p, const Real* q,
-                                   const Workspace<Real>& w) {
+inline Energy<Real> compute_energy(const Mechanism& m, const Parameters<Real>& p,
+                                   Positions<const Real> q, const Workspace<Real>& w) {
   Energy<Real> e{Real(0.0), Real(0.0), Real(0.0)};
-  for (const int b : bodies_outwards(m)) {
-    const BodyState<Real>& s = at(w.bodies, b);
+  for (const BodyIndex b : bodies_outwards(m)) {
+    const BodyState<Real>& s = w.bodies[b];
     const Inertia<Real>& i = s.inertia;
     // 1/2 m v.v + v.(omega x h) + 1/2 omega.I omega
-    Real twice = dot(s.v, madd(i.m, s.v, Real(2.0) * cross(s.omega, i.h)));
-    if (at(m.bodies, b).rotates) twice = twice + dot(s.omega, i.i * s.omega);
+    Real twice = dot(s.v_WB, madd(i.m, s.v_WB, Real(2.0) * cross(s.w_WB, i.h)));
+    if (m.bodies[b].rotates) twice = twice + dot(s.w_WB, i.i * s.w_WB);
     e.kinetic = madd(Real(0.5), twice, e.kinetic);
-    e.height = e.height - dot(p.gravity, madd(i.m, s.p, i.h));
+    e.height = e.height - dot(p.gravity, madd(i.m, s.p_WB, i.h));
   }
-  for (const int i : indices(m.sde_row_count())) {
-    const Real d = at(w.sde_rows, i).d;
-    e.elastic = madd(Real(0.5) * at(p.springs, i).stiffness * d, d, e.elastic);
+  for (const RowIndex i : indices_of(m.sde_rows)) {
+    const Real d = w.sde_rows[i].d;
+    e.elastic = madd(Real(0.5) * p.springs[i].stiffness * d, d, e.elastic);
   }
-  for (const int i : indices_of(m.joint_springs)) {
-    const JointSpringParameters<Real>& n = at(p.joint_springs, i);
-    const Real d = q[at(m.joint_springs, i).q] - n.rest;
+  for (const JointSpringIndex i : indices_of(m.joint_springs)) {
+    const JointSpringParameters<Real>& n = p.joint_springs[i];
+    const Real d = q[m.joint_springs[i].q] - n.rest;
     e.elastic = madd(Real(0.5) * n.stiffness * d, d, e.elastic);
-    if (at(m.joint_springs, i).curve.is_linear()) continue;
-    e.elastic = e.elastic + curve_energy(at(m.joint_springs, i).curve, n.curve, p.segments.data(),
-                                         q[at(m.joint_springs, i).q]);
+    if (m.joint_springs[i].curve.is_linear()) continue;
+    e.elastic = e.elastic + curve_energy(m.joint_springs[i].curve, n.curve, p.segments,
+                                         q[m.joint_springs[i].q]);
   }
-  for (const int i : indices_of(m.point_springs)) {
-    e.elastic = e.elastic + point_spring_energy(at(m.point_springs, i), at(p.point_springs, i),
-                                                p.segments.data(), at(w.point_springs, i).length);
+  for (const PointSpringIndex i : indices_of(m.point_springs)) {
+    e.elastic = e.elastic + point_spring_energy(m.point_springs[i], p.point_springs[i], p.segments,
+                                                w.point_springs[i].length);
   }
-  for (const int i : indices_of(m.contacts)) {
-    const ContactState<Real>& s = at(w.contacts, i);
+  for (const ContactIndex i : indices_of(m.contacts)) {
+    const ContactState<Real>& s = w.contacts[i];
     e.elastic = e.elastic + contact_energy(law_of_contact(m, p, i), s.depth, s.elastic);
   }
   return e;

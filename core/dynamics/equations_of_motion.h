@@ -14,7 +14,8 @@ namespace linkstudy {
 // Kinematics, forces, bias, mass matrix and its factor.
 template <class Real>
 inline void update_factored_mass_matrix(const Mechanism& m, const Parameters<Real>& p, Real t,
-                                        const Real* q, const Real* v, Workspace<Real>& w) {
+                                        Positions<const Real> q, Velocities<const Real> v,
+                                        Workspace<Real>& w) {
   update_motions(m, p, t, w);
   update_kinematics(m, p, q, v, w);
   update_inertial_wrenches(m, w);
@@ -22,13 +23,13 @@ inline void update_factored_mass_matrix(const Mechanism& m, const Parameters<Rea
   update_bias(m, p, w);
   update_mass_matrix(m, p, w);
   take_driven_mass(m, w);
-  factorize_branch_sparse(m, w.mass.data(), w.inverse_pivot.data());
+  factorize_branch_sparse(m, w.mass.view(), Velocities<Real>(w.inverse_pivot));
   fix_driven_coordinates(m, w);
 }
 
 template <class Real>
-inline void evaluate(const Mechanism& m, const Parameters<Real>& p, Real t, const Real* q,
-                     const Real* v, Workspace<Real>& w) {
+inline void evaluate(const Mechanism& m, const Parameters<Real>& p, Real t, Positions<const Real> q,
+                     Velocities<const Real> v, Workspace<Real>& w) {
   update_factored_mass_matrix(m, p, t, q, v, w);
   update_cut_joints(m, p, w);
   solve_accelerations(m, p, w);

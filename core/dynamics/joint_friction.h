@@ -46,31 +46,31 @@ inline Real normal_load(const JointFrictionStructure& s, const JointFrictionPara
   const Vec3<Real> couple = n.inverse_length * cross(axis, reaction.moment);
   const Real supports = length_of(half + couple) + length_of(half - couple);
   const Real load = n.preload + supports;
-  return s.turn < 0 ? madd(abs(dot(axis, reaction.moment)), n.inverse_radius, load) : load;
+  return !s.turn.exists() ? madd(abs(dot(axis, reaction.moment)), n.inverse_radius, load) : load;
 }
 
 // Coefficients along turn and slide, and rates of the bristles, at the present speeds.
 template <class Real, class W>
 inline void update_coefficients(const JointFrictionStructure& s,
-                                const JointFrictionParameters<Real>& n, const Real* v,
+                                const JointFrictionParameters<Real>& n, Velocities<const Real> v,
                                 JointFrictionState<Real>& x, W& w) {
-  const Real turning = s.turn >= 0 ? n.radius * v[s.turn] : Real(0.0);
-  const Real sliding = s.slide >= 0 ? v[s.slide] : Real(0.0);
+  const Real turning = s.turn.exists() ? n.radius * v[s.turn] : Real(0.0);
+  const Real sliding = s.slide.exists() ? v[s.slide] : Real(0.0);
   x.mu_turn = x.mu_slide = Real(0.0);
-  if (s.turn >= 0 && s.slide >= 0) {
-    const LugreVectorState<Real, 2> f = lugre_friction(
-        n.law, std::array{at(w.z, s.z), at(w.z, s.z + 1)}, std::array{turning, sliding});
+  if (s.turn.exists() && s.slide.exists()) {
+    const LugreVectorState<Real, 2> f =
+        lugre_friction(n.law, std::array{w.z[s.z], w.z[s.z + 1]}, std::array{turning, sliding});
     x.mu_turn = f.mu[0];
     x.mu_slide = f.mu[1];
     x.relaxation = f.relaxation;
-    at(w.z_rate, s.z) = f.z_rate[0];
-    at(w.z_rate, s.z + 1) = f.z_rate[1];
+    w.z_rate[s.z] = f.z_rate[0];
+    w.z_rate[s.z + 1] = f.z_rate[1];
     return;
   }
-  const LugreState<Real> f = lugre_friction(n.law, at(w.z, s.z), s.turn >= 0 ? turning : sliding);
-  (s.turn >= 0 ? x.mu_turn : x.mu_slide) = f.mu;
+  const LugreState<Real> f = lugre_friction(n.law, w.z[s.z], s.turn.exists() ? turning : sliding);
+  (s.turn.exists() ? x.mu_turn : x.mu_slide) = f.mu;
   x.relaxation = f.relaxation;
-  at(w.z_rate, s.z) = f.z_rate;
+  w.z_rate[s.z] = f.z_rate;
 }
 
 // tau and the friction of one joint for a load.
@@ -80,8 +80,8 @@ inline void set_load(const JointFrictionStructure& s, const JointFrictionParamet
   x.load = load;
   x.on_turn = x.mu_turn * load * n.radius;
   x.on_slide = x.mu_slide * load;
-  if (s.turn >= 0) at(w.tau, s.turn) = at(w.friction_tau, s.turn) - x.on_turn;
-  if (s.slide >= 0) at(w.tau, s.slide) = at(w.friction_tau, s.slide) - x.on_slide;
+  if (s.turn.exists()) w.tau[s.turn] = w.friction_tau[s.turn] - x.on_turn;
+  if (s.slide.exists()) w.tau[s.slide] = w.friction_tau[s.slide] - x.on_slide;
 }
 
 // Gaps between the loads that the reactions ask for and those in use; true in lanes where none is
@@ -91,11 +91,11 @@ inline auto load_gaps(const Mechanism& m, const Parameters<Real>& p, Workspace<R
   update_reactions(m, p, w, w.reactions);
   if (!w.shared.empty()) share_reactions(m, w, w.reactions, w.shared.front());
   auto none_left = Real(0.0) == Real(0.0);
-  for (const int i : indices_of(m.frictions)) {
-    const JointFrictionStructure& s = at(m.frictions, i);
-    JointFrictionState<Real>& x = at(w.frictions, i);
-    const Vec3<Real>& axis = at(w.axes, s.turn >= 0 ? s.turn : s.slide);
-    const Real found = normal_load(s, at(p.frictions, i), axis, at(w.reactions.on_child, s.body));
+  for (const FrictionIndex i : indices_of(m.frictions)) {
+    const JointFrictionStructure& s = m.frictions[i];
+    JointFrictionState<Real>& x = w.frictions[i];
+    const Vec3<Real>& axis = w.axes[s.turn.exists() ? s.turn : s.slide];
+    const Real found = normal_load(s, p.frictions[i], axis, w.reactions.on_child[s.body]);
     x.next_gap = found - x.load;
     none_left = none_left && abs(x.next_gap) <= madd(Real(kSettledLoad), found, Real(kLeastLoad));
   }
@@ -106,27 +106,25 @@ inline auto load_gaps(const Mechanism& m, const Parameters<Real>& p, Workspace<R
 // of the gaps to minus the last change of the loads.
 template <class Real>
 inline void learn_from_last_change(const Mechanism& m, Workspace<Real>& w) {
-  const int n = static_cast<int>(m.frictions.size());
-  Real* h = w.friction_inverse.data();
+  const auto h = w.friction_inverse.view();
   Real scale(0.0);
-  for (const int i : indices_of(m.frictions)) {
+  for (const FrictionIndex i : indices_of(m.frictions)) {
     Real sum(0.0), row(0.0);
-    for (const int j : indices_of(m.frictions)) {
-      const JointFrictionState<Real>& x = at(w.frictions, j);
-      sum = madd(h[i * n + j], x.next_gap - x.gap, sum);
-      row = madd(x.change, h[j * n + i], row);
+    for (const FrictionIndex j : indices_of(m.frictions)) {
+      const JointFrictionState<Real>& x = w.frictions[j];
+      sum = madd(h(i, j), x.next_gap - x.gap, sum);
+      row = madd(x.change, h(j, i), row);
     }
-    JointFrictionState<Real>& x = at(w.frictions, i);
+    JointFrictionState<Real>& x = w.frictions[i];
     x.missed = Real(0.0) - x.change - sum;
     x.row = row;
     scale = madd(row, x.next_gap - x.gap, scale);
   }
   const auto known = abs(scale) > Real(kLeastChange);
   const Real inverse = select(known, Real(1.0) / select(known, scale, Real(1.0)), Real(0.0));
-  for (const int i : indices_of(m.frictions)) {
-    for (const int j : indices_of(m.frictions)) {
-      h[i * n + j] =
-          madd(at(w.frictions, i).missed * inverse, at(w.frictions, j).row, h[i * n + j]);
+  for (const FrictionIndex i : indices_of(m.frictions)) {
+    for (const FrictionIndex j : indices_of(m.frictions)) {
+      h(i, j) = madd(w.frictions[i].missed * inverse, w.frictions[j].row, h(i, j));
     }
   }
 }
@@ -135,32 +133,31 @@ inline void learn_from_last_change(const Mechanism& m, Workspace<Real>& w) {
 template <class Real, class Mask>
 inline void change_loads(const Mechanism& m, const Parameters<Real>& p, const Mask& settled,
                          Workspace<Real>& w) {
-  const int n = static_cast<int>(m.frictions.size());
-  const Real* h = w.friction_inverse.data();
-  for (const int i : indices_of(m.frictions)) at(w.frictions, i).gap = at(w.frictions, i).next_gap;
-  for (const int i : indices_of(m.frictions)) {
-    JointFrictionState<Real>& x = at(w.frictions, i);
+  const auto h = w.friction_inverse.view();
+  for (const FrictionIndex i : indices_of(m.frictions))
+    w.frictions[i].gap = w.frictions[i].next_gap;
+  for (const FrictionIndex i : indices_of(m.frictions)) {
+    JointFrictionState<Real>& x = w.frictions[i];
     Real change(0.0);
-    for (const int j : indices_of(m.frictions)) {
-      change = madd(h[i * n + j], at(w.frictions, j).gap, change);
+    for (const FrictionIndex j : indices_of(m.frictions)) {
+      change = madd(h(i, j), w.frictions[j].gap, change);
     }
     x.change = select(settled, Real(0.0), change);
-    set_load(at(m.frictions, i), at(p.frictions, i), x.load + x.change, x, w);
+    set_load(m.frictions[i], p.frictions[i], x.load + x.change, x, w);
   }
 }
 
 template <class Real>
-inline void start_loads(const Mechanism& m, const Parameters<Real>& p, const Real* v,
+inline void start_loads(const Mechanism& m, const Parameters<Real>& p, Velocities<const Real> v,
                         Workspace<Real>& w) {
-  const int n = static_cast<int>(m.frictions.size());
   if (!w.shared.empty()) update_self_stresses(m, p, w, w.shared.front());
-  for (const int k : velocities(m)) at(w.friction_tau, k) = at(w.tau, k);
-  for (const int i : indices_of(m.frictions)) {
-    JointFrictionState<Real>& x = at(w.frictions, i);
-    update_coefficients(at(m.frictions, i), at(p.frictions, i), v, x, w);
+  for (const VelocityIndex k : velocities(m)) w.friction_tau[k] = w.tau[k];
+  for (const FrictionIndex i : indices_of(m.frictions)) {
+    JointFrictionState<Real>& x = w.frictions[i];
+    update_coefficients(m.frictions[i], p.frictions[i], v, x, w);
     x.load = Real(0.0);
-    for (const int j : indices_of(m.frictions)) {
-      at(w.friction_inverse, i * n + j) = Real(i == j ? 1.0 : 0.0);
+    for (const FrictionIndex j : indices_of(m.frictions)) {
+      w.friction_inverse(i, j) = Real(i == j ? 1.0 : 0.0);
     }
   }
 }
@@ -168,7 +165,7 @@ inline void start_loads(const Mechanism& m, const Parameters<Real>& p, const Rea
 // Apart, so that linkages without such joints carry none of it.
 template <class Real>
 [[gnu::noinline]] void balance_joint_friction(const Mechanism& m, const Parameters<Real>& p,
-                                              const Real* v, Workspace<Real>& w) {
+                                              Velocities<const Real> v, Workspace<Real>& w) {
   start_loads(m, p, v, w);
   auto settled = load_gaps(m, p, w);
   for (int pass = 0; pass < most_passes<Real>() && !all(settled); ++pass) {
@@ -178,17 +175,17 @@ template <class Real>
     settled = load_gaps(m, p, w) || settled;
   }
   w.jammed = lane_bits(settled) ^ kAllLanes<Real>;
-  for (const int i : indices_of(m.frictions)) {
-    const JointFrictionStructure& s = at(m.frictions, i);
-    const JointFrictionState<Real>& x = at(w.frictions, i);
-    if (s.turn >= 0) w.dissipated_power = madd(x.on_turn, v[s.turn], w.dissipated_power);
-    if (s.slide >= 0) w.dissipated_power = madd(x.on_slide, v[s.slide], w.dissipated_power);
+  for (const FrictionIndex i : indices_of(m.frictions)) {
+    const JointFrictionStructure& s = m.frictions[i];
+    const JointFrictionState<Real>& x = w.frictions[i];
+    if (s.turn.exists()) w.dissipated_power = madd(x.on_turn, v[s.turn], w.dissipated_power);
+    if (s.slide.exists()) w.dissipated_power = madd(x.on_slide, v[s.slide], w.dissipated_power);
   }
 }
 
 template <class Real>
-inline void settle_joint_friction(const Mechanism& m, const Parameters<Real>& p, const Real* v,
-                                  Workspace<Real>& w) {
+inline void settle_joint_friction(const Mechanism& m, const Parameters<Real>& p,
+                                  Velocities<const Real> v, Workspace<Real>& w) {
   w.jammed = 0;
   if (!m.frictions.empty()) balance_joint_friction(m, p, v, w);
 }

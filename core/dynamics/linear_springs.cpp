@@ -9,21 +9,21 @@ namespace {
 // A table over a coordinate as its tangent: one segment, a unit to either side of the state.
 void make_course_linear(const State<double>& s, CourseStructure& c, CourseParameters<double>& n,
                         Model& near) {
-  if (c.bend < 0) return;
-  std::vector<SegmentParameters<double>>& segments = near.parameters.segments;
+  if (!c.bend.exists()) return;
+  Segments<double>& segments = near.parameters.segments;
   const double x = course_argument(c, n, s.t, s.q.data());
-  const double value = course_value(c, n, segments.data(), x);
-  const double slope = curve_slope(CurveStructure{c.begin, c.end}, segments.data(), x);
-  const int index = static_cast<int>(segments.size());
-  segments.push_back({s.q[static_cast<std::size_t>(c.q)] - 1.0, 2.0, slope});
+  const double value = course_value(c, n, segments, x);
+  const double slope = curve_slope(CurveStructure{c.begin, c.end}, segments, x);
+  const SegmentIndex index = segments.end_index();
+  segments.push_back({s.q[c.q] - 1.0, 2.0, slope});
   n = {value - slope, 0.0, 0.0, 0.0};
   c = {.shape = CourseShape::table, .q = c.q, .begin = index, .end = index + 1};
 }
 
 // An actuator as one that knows no time.
-void hold_course(double t, const SegmentParameters<double>* segments, PointSpringStructure& s,
+void hold_course(double t, const Segments<double>& segments, PointSpringStructure& s,
                  PointSpringParameters<double>& n) {
-  if (s.is_driven && s.course.q >= 0) return;
+  if (s.is_driven && s.course.q.exists()) return;
   double value = 0.0;
   if (s.is_driven) {
     const double x = course_argument<double>(s.course, n.course, t, nullptr);
@@ -34,8 +34,8 @@ void hold_course(double t, const SegmentParameters<double>* segments, PointSprin
 }
 
 // f = slope (l - length) + force there, the force as that of an actuator.
-void make_linear(const PointSpringState<double>& x, const SegmentParameters<double>* segments,
-                 double t, PointSpringStructure& s, PointSpringParameters<double>& n) {
+void make_linear(const PointSpringState<double>& x, const Segments<double>& segments, double t,
+                 PointSpringStructure& s, PointSpringParameters<double>& n) {
   const double stretch = spring_stretch(s, n, segments, x.length);
   const double slope = spring_slope(s, n, segments, x.length, stretch);
   hold_course(t, segments, s, n);
@@ -45,30 +45,30 @@ void make_linear(const PointSpringState<double>& x, const SegmentParameters<doub
   n.course.value += x.elastic;
   s.acts = SpringActs::both;
   s.curve = {};
-  s.bend = -1;
+  s.bend = {};
   s.is_driven = true;
 }
 
 // A generalised force on one coordinate, force - slope (q - there).
 struct LinearForce {
-  int q, v;
+  PositionIndex q;
+  VelocityIndex v;
   double force, slope;
 };
 
 void add_linear_force(const LinearForce& f, const State<double>& s, Model& model) {
   model.mechanism.joint_springs.push_back({f.q, f.v});
-  model.parameters.joint_springs.push_back({f.slope, 0.0, s.q[static_cast<std::size_t>(f.q)], {}});
+  model.parameters.joint_springs.push_back({f.slope, 0.0, s.q[f.q], {}});
   model.mechanism.loads.push_back({.type = LoadType::drive, .v = f.v});
   model.parameters.loads.push_back({{f.force, 0.0, 0.0, 0.0}, 0.0, {}, {}});
 }
 
 void make_curves_linear(const State<double>& s, Model& model) {
-  const std::size_t count = model.mechanism.joint_springs.size();
-  for (std::size_t i = 0; i < count; ++i) {
+  for (const JointSpringIndex i : indices_of(model.mechanism.joint_springs)) {
     const JointSpring spring = model.mechanism.joint_springs[i];
-    if (spring.bend < 0) continue;
-    const double q = s.q[static_cast<std::size_t>(spring.q)];
-    const auto* segments = model.parameters.segments.data();
+    if (!spring.bend.exists()) continue;
+    const double q = s.q[spring.q];
+    const Segments<double>& segments = model.parameters.segments;
     const CurveParameters<double> n = model.parameters.joint_springs[i].curve;
     model.mechanism.joint_springs[i] = {spring.q, spring.v};
     add_linear_force({spring.q, spring.v, -curve_force(spring.curve, n, segments, q),
@@ -79,9 +79,9 @@ void make_curves_linear(const State<double>& s, Model& model) {
 
 // d (K d^n) / d d = n K d^n / d.
 void make_stops_linear(const State<double>& s, const Workspace<double>& w, Model& model) {
-  for (std::size_t i = 0; i < model.mechanism.stops.size(); ++i) {
+  for (const StopIndex i : indices_of(model.mechanism.stops)) {
     const StopStructure& stop = model.mechanism.stops[i];
-    const ContactState<double>& x = w.contacts[static_cast<std::size_t>(stop.contact)];
+    const ContactState<double>& x = w.contacts[stop.contact];
     if (!(x.elastic > 0.0)) continue;
     const double exponent = model.parameters.stops[i].contact.exponent;
     add_linear_force(
@@ -94,14 +94,14 @@ Model make_springs_linear(const Model& model, const State<double>& s, const Work
   Model near = model;
   Mechanism& m = near.mechanism;
   Parameters<double>& p = near.parameters;
-  for (std::size_t i = 0; i < m.loads.size(); ++i) {
+  for (const LoadIndex i : indices_of(m.loads)) {
     make_course_linear(s, m.loads[i].course, p.loads[i].course, near);
   }
-  for (std::size_t i = 0; i < m.point_springs.size(); ++i) {
+  for (const PointSpringIndex i : indices_of(m.point_springs)) {
     PointSpringStructure& spring = m.point_springs[i];
     PointSpringParameters<double>& n = p.point_springs[i];
     make_course_linear(s, spring.course, n.course, near);
-    if (spring.bend >= 0) make_linear(w.point_springs[i], p.segments.data(), s.t, spring, n);
+    if (spring.bend.exists()) make_linear(w.point_springs[i], p.segments, s.t, spring, n);
   }
   make_curves_linear(s, near);
   near.mechanism.bent_springs = 0;

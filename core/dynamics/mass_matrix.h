@@ -15,29 +15,29 @@ namespace linkstudy {
 template <class Real>
 inline Wrench<Real> inertial_wrench(const Body& body, const BodyState<Real>& s) {
   const Inertia<Real>& i = s.inertia;
-  Wrench<Real> w{zero3<Real>(), i.m * s.a};
+  Wrench<Real> w{zero3<Real>(), i.m * s.a_WB};
   const bool offset = body.center != VectorShape::zero;
-  if (offset) w.moment = cross(i.h, s.a);
+  if (offset) w.moment = cross(i.h, s.a_WB);
   if (!body.rotates) return w;
   if (offset) {
-    w.force = w.force + cross(s.omega, cross(s.omega, i.h));
-    if (body.gyrates) w.force = w.force + cross(s.alpha, i.h);
+    w.force = w.force + cross(s.w_WB, cross(s.w_WB, i.h));
+    if (body.gyrates) w.force = w.force + cross(s.alpha_WB, i.h);
   }
-  if (body.inertia != InertiaShape::isotropic) w.moment = w.moment + cross(s.omega, i.i * s.omega);
-  if (body.gyrates) w.moment = w.moment + i.i * s.alpha;
+  if (body.inertia != InertiaShape::isotropic) w.moment = w.moment + cross(s.w_WB, i.i * s.w_WB);
+  if (body.gyrates) w.moment = w.moment + i.i * s.alpha_WB;
   return w;
 }
 
 template <class Real>
 inline void update_inertial_wrenches(const Mechanism& m, Workspace<Real>& w) {
-  for (const int b : bodies_outwards(m)) {
-    at(w.bodies, b).wrench = inertial_wrench(at(m.bodies, b), at(w.bodies, b));
+  for (const BodyIndex b : bodies_outwards(m)) {
+    w.bodies[b].wrench = inertial_wrench(m.bodies[b], w.bodies[b]);
   }
 }
 
 // Generalised force of a wrench on a velocity with this axis.
 template <class Real>
-inline Real work_rate(const Velocity& k, const Real* pitch, const Vec3<Real>& axis,
+inline Real work_rate(const Velocity& k, Pitches<Real> pitch, const Vec3<Real>& axis,
                       const Wrench<Real>& w) {
   if (k.kind == VelocityKind::rotation) return dot(axis, w.moment);
   if (k.kind == VelocityKind::translation) return dot(axis, w.force);
@@ -61,8 +61,8 @@ inline void pass_to_parent(const Body& body, const BodyState<Real>& s, bool pare
   }
   parent.wrench.moment = parent.wrench.moment + s.wrench.moment;
   if (body.shifted) {
-    parent.wrench.moment = parent.wrench.moment + cross(s.shift, s.wrench.force);
-    add_inertia(parent.composite, shift_inertia(composite, s.shift));
+    parent.wrench.moment = parent.wrench.moment + cross(s.p_PB_W, s.wrench.force);
+    add_inertia(parent.composite, shift_inertia(composite, s.p_PB_W));
   } else {
     add_inertia(parent.composite, composite);
   }
@@ -71,24 +71,23 @@ inline void pass_to_parent(const Body& body, const BodyState<Real>& s, bool pare
 // Tips to ground: tau less bias, and composite inertias.
 template <class Real>
 inline void update_bias(const Mechanism& m, const Parameters<Real>& p, Workspace<Real>& w) {
-  for (const int b : bodies_outwards(m)) {
-    if (at(m.bodies, b).carries) at(w.bodies, b).composite = at(w.bodies, b).inertia;
+  for (const BodyIndex b : bodies_outwards(m)) {
+    if (m.bodies[b].carries) w.bodies[b].composite = w.bodies[b].inertia;
   }
-  for (const int b : bodies_inwards(m)) {
-    const Body& body = at(m.bodies, b);
-    const BodyState<Real>& s = at(w.bodies, b);
-    for (const int k : velocities_of(body)) {
-      at(w.tau, k) =
-          at(w.tau, k) - work_rate(at(m.velocities, k), p.pitch.data(), at(w.axes, k), s.wrench);
+  for (const BodyIndex b : bodies_inwards(m)) {
+    const Body& body = m.bodies[b];
+    const BodyState<Real>& s = w.bodies[b];
+    for (const VelocityIndex k : velocities_of(body)) {
+      w.tau[k] = w.tau[k] - work_rate(m.velocities[k], p.pitch, w.axes[k], s.wrench);
     }
-    if (body.parent == 0) continue;
-    pass_to_parent(body, s, at(m.bodies, body.parent).rotates, at(w.bodies, body.parent));
+    if (body.parent == kGroundBody) continue;
+    pass_to_parent(body, s, m.bodies[body.parent].rotates, w.bodies[body.parent]);
   }
 }
 
 // Wrench that accelerates a composite by one unit of a velocity.
 template <class Real>
-inline Wrench<Real> unit_wrench(const Velocity& k, const Real* pitch, const Vec3<Real>& axis,
+inline Wrench<Real> unit_wrench(const Velocity& k, Pitches<Real> pitch, const Vec3<Real>& axis,
                                 const Inertia<Real>& c) {
   if (k.kind == VelocityKind::translation) return {cross(c.h, axis), c.m * axis};
   Wrench<Real> w{c.i * axis, cross(axis, c.h)};
@@ -103,19 +102,19 @@ inline Wrench<Real> unit_wrench(const Velocity& k, const Real* pitch, const Vec3
 // Lower triangle of M on the paths to ground; entries off the paths are never touched.
 template <class Real>
 inline void update_mass_matrix(const Mechanism& m, const Parameters<Real>& p, Workspace<Real>& w) {
-  const Real* pitch = p.pitch.data();
-  for (const int k : velocities(m)) {
-    const int tip = at(m.velocities, k).body;
-    Real* row = &at(w.mass, k * m.nv);
-    Wrench<Real> f = unit_wrench(at(m.velocities, k), pitch, at(w.axes, k),
-                                 composite_of(at(m.bodies, tip), at(w.bodies, tip)));
-    for (const int b : bodies_to_ground(m, tip)) {
-      const Body& body = at(m.bodies, b);
-      for (const int i : velocities_of(body)) {
-        if (i <= k) row[i] = work_rate(at(m.velocities, i), pitch, at(w.axes, i), f);
+  const Pitches<Real> pitch = p.pitch;
+  for (const VelocityIndex k : velocities(m)) {
+    const BodyIndex tip = m.velocities[k].body;
+    const Velocities<Real> row = w.mass.row(k);
+    Wrench<Real> f =
+        unit_wrench(m.velocities[k], pitch, w.axes[k], composite_of(m.bodies[tip], w.bodies[tip]));
+    for (const BodyIndex b : bodies_to_ground(m, tip)) {
+      const Body& body = m.bodies[b];
+      for (const VelocityIndex i : velocities_of(body)) {
+        if (i <= k) row[i] = work_rate(m.velocities[i], pitch, w.axes[i], f);
       }
       if (!body.shifted) continue;
-      f.moment = f.moment + cross(at(w.bodies, b).shift, f.force);
+      f.moment = f.moment + cross(w.bodies[b].p_PB_W, f.force);
     }
   }
 }

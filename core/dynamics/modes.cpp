@@ -53,7 +53,7 @@ Eigen::VectorXcd normalised(Eigen::VectorXcd shape, const Mechanism& m, double e
   Eigen::Index largest = 0;
   double size = 0.0;
   for (Eigen::Index k = 0; k < shape.size(); ++k) {
-    const bool slides = m.velocities[static_cast<std::size_t>(k)].kind == VelocityKind::translation;
+    const bool slides = m.velocities[VelocityIndex(k)].kind == VelocityKind::translation;
     const double here = std::abs(shape[k]) / (slides ? extent : 1.0);
     if (here <= size * (1.0 + 1e-9)) continue;  // of equal ones the first
     size = here;

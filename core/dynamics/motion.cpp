@@ -18,13 +18,10 @@ Eigen::MatrixXd compute_mass_matrix(const Mechanism& m, const Parameters<double>
   update_factored_mass_matrix(m, p, s.t, s.q.data(), s.v.data(), w);
   Eigen::MatrixXd l = Eigen::MatrixXd::Identity(m.nv, m.nv);
   Eigen::VectorXd d(m.nv);
-  for (int k = 0; k < m.nv; ++k) {
-    const double inverse = w.inverse_pivot[static_cast<std::size_t>(k)];
-    d[k] = inverse > 0.0 ? 1.0 / inverse : 0.0;
-    for (int i = m.v_parent[static_cast<std::size_t>(k)]; i >= 0;
-         i = m.v_parent[static_cast<std::size_t>(i)]) {
-      l(k, i) = w.mass[static_cast<std::size_t>(k * m.nv + i)];
-    }
+  for (const VelocityIndex k : velocities(m)) {
+    const double inverse = w.inverse_pivot[k];
+    d[k.value()] = inverse > 0.0 ? 1.0 / inverse : 0.0;
+    for (const VelocityIndex i : ancestors(m, k)) l(k.value(), i.value()) = w.mass(k, i);
   }
   return l.transpose() * d.asDiagonal() * l;
 }

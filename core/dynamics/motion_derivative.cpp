@@ -31,15 +31,15 @@ class Tracer {
         *x = input();
     }
     state = next_;
-    std::vector<Traced> q(static_cast<std::size_t>(m_.nq)), v(static_cast<std::size_t>(m_.nv));
+    IndexedVector<PositionIndex, Traced> q(static_cast<std::size_t>(m_.nq));
+    IndexedVector<VelocityIndex, Traced> v(static_cast<std::size_t>(m_.nv));
     read(q.data(), q.size());
     read(v.data(), v.size());
     read(w_.z.data(), w_.z.size());
     end = next_;
     evaluate(m_, p, t, q.data(), v.data(), w_);
-    std::vector<Traced> rates(q.size());
-    for (const Stage& s : m_.stages)
-      position_rates(s, q.data() + s.q, v.data() + s.v, rates.data() + s.q);
+    IndexedVector<PositionIndex, Traced> rates(q.size());
+    for (const Stage& s : m_.stages) position_rates(s, &q[s.q], &v[s.v], &rates[s.q]);
     write(rates);
     write(w_.qdd);
     write(w_.z_rate);

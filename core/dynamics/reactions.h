@@ -15,8 +15,8 @@ namespace linkstudy {
 
 template <class Real>
 inline Reactions<Real> make_reactions(const Mechanism& m) {
-  return {std::vector<BodyState<Real>>(m.bodies.size()),
-          std::vector<Wrench<Real>>(m.bodies.size())};
+  return {BodyStates<Real>(m.bodies.size()),
+          IndexedVector<BodyIndex, Wrench<Real>>(m.bodies.size())};
 }
 
 // What moves a body, less what acts on it beside joints.
@@ -24,36 +24,33 @@ template <class Real>
 inline void sum_free_body_wrenches(const Mechanism& m, const Parameters<Real>& p,
                                    const Workspace<Real>& w, Reactions<Real>& r) {
   r.moving = w.bodies;
-  at(r.on_child, 0) = {zero3<Real>(), zero3<Real>()};
-  for (const int b : bodies_outwards(m)) {
+  r.on_child[kGroundBody] = {zero3<Real>(), zero3<Real>()};
+  for (const BodyIndex b : bodies_outwards(m)) {
     add_joint_accelerations(m, p, w, b, r.moving);
-    Body body = at(m.bodies, b);
+    Body body = m.bodies[b];
     body.gyrates = body.rotates;  // alpha is no longer that of qdd = 0
-    at(r.on_child, b) = inertial_wrench(body, at(r.moving, b));
+    r.on_child[b] = inertial_wrench(body, r.moving[b]);
   }
-  for (const int i : indices_of(m.loads)) {
-    const int body = at(m.loads, i).body;
-    if (body < 0) continue;
-    Wrench<Real>& sum = at(r.on_child, body);
-    sum.force = sum.force - at(w.link_loads, i).force;
-    sum.moment = sum.moment - at(w.link_loads, i).moment;
+  for (const LoadIndex i : indices_of(m.loads)) {
+    const BodyIndex body = m.loads[i].body;
+    if (!body.exists()) continue;
+    Wrench<Real>& sum = r.on_child[body];
+    sum.force = sum.force - w.link_loads[i].force;
+    sum.moment = sum.moment - w.link_loads[i].moment;
   }
-  for (const int i : indices_of(m.point_springs)) {
-    const PointSpringStructure& s = at(m.point_springs, i);
-    subtract_spring_force(at(w.point_springs, i), at(r.on_child, s.first),
-                          at(r.on_child, s.second));
+  for (const PointSpringIndex i : indices_of(m.point_springs)) {
+    const PointSpringStructure& s = m.point_springs[i];
+    subtract_spring_force(w.point_springs[i], r.on_child[s.first], r.on_child[s.second]);
   }
-  const auto subtract = [&](int i) {
-    const ClosureStructure& c = at(m.closures, i);
-    subtract_closure_forces(c, at(w.closures, i), w.bodies.data(), at(r.on_child, c.first),
-                            at(r.on_child, c.second));
+  const auto subtract = [&](ClosureIndex i) {
+    const ClosureStructure& c = m.closures[i];
+    subtract_closure_forces(c, w.closures[i], w.bodies, r.on_child[c.first], r.on_child[c.second]);
     if (c.model != ClosureModel::clearance) return;
-    subtract_contact_forces(c, at(w.closures, i), w.bodies.data(), at(r.on_child, c.first),
-                            at(r.on_child, c.second));
+    subtract_contact_forces(c, w.closures[i], w.bodies, r.on_child[c.first], r.on_child[c.second]);
   };
   for (const RowStorage storage : {RowStorage::cut, RowStorage::sde}) {
-    for (const int i : indices_of(m.closures)) {
-      if (storage_of(at(m.closures, i).model) == storage) subtract(i);
+    for (const ClosureIndex i : indices_of(m.closures)) {
+      if (storage_of(m.closures[i].model) == storage) subtract(i);
     }
   }
 }
@@ -62,11 +59,11 @@ template <class Real>
 inline void update_reactions(const Mechanism& m, const Parameters<Real>& p,
                              const Workspace<Real>& w, Reactions<Real>& r) {
   sum_free_body_wrenches(m, p, w, r);
-  for (const int b : bodies_inwards(m)) {
-    const int parent = at(m.bodies, b).parent;
-    Wrench<Real>& sum = at(r.on_child, parent);
-    add_force(sum, at(w.bodies, b).p - at(w.bodies, parent).p, at(r.on_child, b).force);
-    sum.moment = sum.moment + at(r.on_child, b).moment;
+  for (const BodyIndex b : bodies_inwards(m)) {
+    const BodyIndex parent = m.bodies[b].parent;
+    Wrench<Real>& sum = r.on_child[parent];
+    add_force(sum, w.bodies[b].p_WB - w.bodies[parent].p_WB, r.on_child[b].force);
+    sum.moment = sum.moment + r.on_child[b].moment;
   }
 }
 

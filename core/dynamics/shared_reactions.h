@@ -29,19 +29,17 @@ inline constexpr double kOnePoint = 1e-9;
 
 template <class F>
 inline void for_loop_joints(const Mechanism& m, F&& f) {
-  const int count = static_cast<int>(m.loop_joints.size());
-  for (int i = 0; i < count; ++i) f(i, at(m.loop_joints, i));
+  for (const LoopJointIndex i : indices_of(m.loop_joints)) f(i, m.loop_joints[i]);
 }
 template <class F>
 inline void for_loop_rows(const Mechanism& m, F&& f) {
-  const int count = static_cast<int>(m.loop_rows.size());
-  for (int r = 0; r < count; ++r) f(r, at(m.loop_rows, r));
+  for (const LoopRowIndex r : indices_of(m.loop_rows)) f(r, m.loop_rows[r]);
 }
 
 // Where the reaction of a joint is taken.
 template <class Real>
 inline const Vec3<Real>& point_of(const Workspace<Real>& w, const LoopJoint& joint) {
-  return joint.body >= 0 ? at(w.bodies, joint.body).p : at(w.closures, joint.closure).p1;
+  return joint.body.exists() ? w.bodies[joint.body].p_WB : w.closures[joint.closure].p1;
 }
 
 // l of the loops of one joint; 0 where all their joints are at one point.
@@ -50,7 +48,7 @@ inline Real spread_of(const Mechanism& m, const Workspace<Real>& w, int group) {
   Vec3<Real> sum = zero3<Real>();
   Real count(0.0), square(0.0), extent(0.0);
   const auto for_points = [&](auto&& f) {
-    for_loop_joints(m, [&](int, const LoopJoint& joint) {
+    for_loop_joints(m, [&](LoopJointIndex, const LoopJoint& joint) {
       if (joint.counts && joint.group == group) f(point_of(w, joint));
     });
   };
@@ -73,13 +71,13 @@ template <class Real>
 inline Real update_loop_lengths(const Mechanism& m, const Workspace<Real>& w,
                                 SharedReactions<Real>& s) {
   Real longest(0.0);
-  for_loop_joints(m, [&](int i, const LoopJoint& joint) {
-    at(s.length, i) = spread_of(m, w, joint.group);
-    longest = max(longest, at(s.length, i));
+  for_loop_joints(m, [&](LoopJointIndex i, const LoopJoint& joint) {
+    s.length[i] = spread_of(m, w, joint.group);
+    longest = max(longest, s.length[i]);
   });
   longest = select(longest > Real(0.0), longest, Real(1.0));
-  for_loop_joints(m, [&](int i, const LoopJoint&) {
-    at(s.length, i) = select(at(s.length, i) > Real(0.0), at(s.length, i), longest);
+  for_loop_joints(m, [&](LoopJointIndex i, const LoopJoint&) {
+    s.length[i] = select(s.length[i] > Real(0.0), s.length[i], longest);
   });
   return longest;
 }
@@ -88,14 +86,13 @@ inline Real update_loop_lengths(const Mechanism& m, const Workspace<Real>& w,
 template <class Real>
 inline void update_loop_rows(const Mechanism& m, const Parameters<Real>& p,
                              const Workspace<Real>& w, SharedReactions<Real>& s) {
-  for_loop_rows(m, [&](int r, const Row& row) {
-    ClosureStructure c = at(m.closures, row.closure);
-    ClosureState<Real> x = at(w.closures, row.closure);
+  for_loop_rows(m, [&](LoopRowIndex r, const Row& row) {
+    ClosureStructure c = m.closures[row.closure];
+    ClosureState<Real> x = w.closures[row.closure];
     c.needs_frames = true;
-    const ClosureParameters<Real>& n = at(p.closures, row.closure);
-    update_closure_pose(m, c, n, w.bodies.data(), x);
-    update_row(row, x, n, at(w.bodies, c.first), at(w.bodies, c.second), zero3<Real>(),
-               at(s.rows, r));
+    const ClosureParameters<Real>& n = p.closures[row.closure];
+    update_closure_pose(m, c, n, w.bodies, x);
+    update_row(row, x, n, w.bodies[c.first], w.bodies[c.second], zero3<Real>(), s.rows[r]);
   });
 }
 
@@ -103,18 +100,18 @@ inline void update_loop_rows(const Mechanism& m, const Parameters<Real>& p,
 template <class Real>
 inline void update_loop_jacobian(const Mechanism& m, const Parameters<Real>& p,
                                  const Workspace<Real>& w, Real longest, SharedReactions<Real>& s) {
-  for_loop_rows(m, [&](int r, const Row& row) {
-    Real& scale = at(s.row_scale, r);
+  for_loop_rows(m, [&](LoopRowIndex r, const Row& row) {
+    Real& scale = s.row_scale[r];
     scale = longest;
-    for_loop_joints(m, [&](int i, const LoopJoint& joint) {
-      if (joint.closure == row.closure) scale = at(s.length, i);
+    for_loop_joints(m, [&](LoopJointIndex i, const LoopJoint& joint) {
+      if (joint.closure == row.closure) scale = s.length[i];
     });
     if (row.kind == RowKind::rotation) scale = Real(1.0);
-    Real* j = s.jacobian.data() + r * m.nv;
-    for (int k = 0; k < m.nv; ++k) j[k] = Real(0.0);
-    add_row_rates(m, p, w, row.closure, row, at(s.rows, r), j);
-    for (int k = 0; k < m.nv; ++k) {
-      const bool slides = at(m.velocities, k).kind == VelocityKind::translation;
+    const Velocities<Real> j = s.jacobian.row(r);
+    for (const VelocityIndex k : velocities(m)) j[k] = Real(0.0);
+    add_row_rates(m, p, w, row.closure, row, s.rows[r], j);
+    for (const VelocityIndex k : velocities(m)) {
+      const bool slides = m.velocities[k].kind == VelocityKind::translation;
       j[k] = (slides ? longest : Real(1.0)) * j[k] / scale;
     }
   });
@@ -124,17 +121,17 @@ inline void update_loop_jacobian(const Mechanism& m, const Parameters<Real>& p,
 template <class Real>
 inline Wrench<Real> effect_on(const Mechanism& m, const Workspace<Real>& w, const Row& row,
                               const RowState<Real>& state, const LoopJoint& joint) {
-  const ClosureStructure& c = at(m.closures, row.closure);
-  const ClosureState<Real>& x = at(w.closures, row.closure);
+  const ClosureStructure& c = m.closures[row.closure];
+  const ClosureState<Real>& x = w.closures[row.closure];
   const Vec3<Real>& point_1 = acts_at_both_points(row.kind) ? x.p1 : x.p2;
   Wrench<Real> effect{zero3<Real>(), zero3<Real>()};
-  if (joint.closure >= 0) {
+  if (joint.closure.exists()) {
     if (joint.closure != row.closure) return effect;
     add_force(effect, point_1 - x.p1, state.force);
     effect.moment = effect.moment + state.couple;
     return effect;
   }
-  const Vec3<Real>& origin = at(w.bodies, joint.body).p;
+  const Vec3<Real>& origin = w.bodies[joint.body].p_WB;
   const bool first = carries(m, joint.body, c.first), second = carries(m, joint.body, c.second);
   if (first == second) return effect;
   if (first) {
@@ -151,10 +148,9 @@ inline Wrench<Real> effect_on(const Mechanism& m, const Workspace<Real>& w, cons
 template <class Real>
 inline void update_loop_effects(const Mechanism& m, const Workspace<Real>& w,
                                 SharedReactions<Real>& s) {
-  const int joints = static_cast<int>(m.loop_joints.size());
-  for_loop_rows(m, [&](int r, const Row& row) {
-    for_loop_joints(m, [&](int i, const LoopJoint& joint) {
-      at(s.effect, r * joints + i) = effect_on(m, w, row, at(s.rows, r), joint);
+  for_loop_rows(m, [&](LoopRowIndex r, const Row& row) {
+    for_loop_joints(m, [&](LoopJointIndex i, const LoopJoint& joint) {
+      s.effect(r, i) = effect_on(m, w, row, s.rows[r], joint);
     });
   });
 }
@@ -181,16 +177,16 @@ inline void read_lane(const double* from, double length, int i, Wrench<Real>& to
 
 template <class Real>
 inline void reduce_lane(const Mechanism& m, int rank, int i, SharedReactions<Real>& s) {
-  NullSpaceFit& fit = at(s.fits, i);
+  NullSpaceFit& fit = s.fits[static_cast<std::size_t>(i)];
   const int joints = static_cast<int>(m.loop_joints.size());
-  for_loop_rows(m, [&](int r, const Row&) {
-    for (int k = 0; k < m.nv; ++k) {
-      fit.jacobian()[r * m.nv + k] = lane(at(s.jacobian, r * m.nv + k), i);
+  for_loop_rows(m, [&](LoopRowIndex r, const Row&) {
+    for (const VelocityIndex k : velocities(m)) {
+      fit.jacobian()[r.value() * m.nv + k.value()] = lane(s.jacobian(r, k), i);
     }
-    const double unit = 1.0 / lane(at(s.row_scale, r), i);
-    for (int n = 0; n < joints; ++n) {
-      const int e = r * joints + n;
-      write_lane(at(s.effect, e), lane(at(s.length, n), i), unit, i, fit.effects() + 6 * e);
+    const double unit = 1.0 / lane(s.row_scale[r], i);
+    for (const LoopJointIndex n : indices_of(m.loop_joints)) {
+      double* effect = fit.effects() + 6 * (r.value() * joints + n.value());
+      write_lane(s.effect(r, n), lane(s.length[n], i), unit, i, effect);
     }
   });
   fit.reduce(rank);
@@ -198,13 +194,13 @@ inline void reduce_lane(const Mechanism& m, int rank, int i, SharedReactions<Rea
 
 template <class Real>
 inline void fit_lane(const Mechanism& m, int i, SharedReactions<Real>& s) {
-  NullSpaceFit& fit = at(s.fits, i);
-  for_loop_joints(m, [&](int n, const LoopJoint&) {
-    write_lane(at(s.borne, n), lane(at(s.length, n), i), 1.0, i, fit.given() + 6 * n);
+  NullSpaceFit& fit = s.fits[static_cast<std::size_t>(i)];
+  for_loop_joints(m, [&](LoopJointIndex n, const LoopJoint&) {
+    write_lane(s.borne[n], lane(s.length[n], i), 1.0, i, fit.given() + 6 * n.value());
   });
   fit.fit();
-  for_loop_joints(m, [&](int n, const LoopJoint&) {
-    read_lane(fit.change() + 6 * n, lane(at(s.length, n), i), i, at(s.change, n));
+  for_loop_joints(m, [&](LoopJointIndex n, const LoopJoint&) {
+    read_lane(fit.change() + 6 * n.value(), lane(s.length[n], i), i, s.change[n]);
   });
 }
 
@@ -234,35 +230,35 @@ template <class Real, class R>
                                        SharedReactions<Real>& s) {
   const Real none(-0.0);  // added to a zero of either sign it leaves the sign
   const Vec3<Real> zero{none, none, none};
-  for_loop_joints(m, [&](int i, const LoopJoint& joint) {
-    at(s.change, i) = {zero, zero};
-    if (joint.body >= 0) {
-      at(s.borne, i) = at(reactions.on_child, joint.body);
+  for_loop_joints(m, [&](LoopJointIndex i, const LoopJoint& joint) {
+    s.change[i] = {zero, zero};
+    if (joint.body.exists()) {
+      s.borne[i] = reactions.on_child[joint.body];
       return;
     }
     const ClosureWrench<Real> f =
-        compute_closure_wrench(at(m.closures, joint.closure), at(w.closures, joint.closure));
-    at(s.borne, i) = {f.torque, f.force};
+        compute_closure_wrench(m.closures[joint.closure], w.closures[joint.closure]);
+    s.borne[i] = {f.torque, f.force};
   });
   for (int i = 0; i < RealTraits<Real>::lanes; ++i) {
     if ((s.redundant >> i & 1u) != 0) fit_lane(m, i, s);
   }
-  for_loop_joints(m, [&](int i, const LoopJoint& joint) {
-    if (joint.body < 0) return;
-    Wrench<Real>& f = at(reactions.on_child, joint.body);
-    f.force = f.force + at(s.change, i).force;
-    f.moment = f.moment + at(s.change, i).moment;
+  for_loop_joints(m, [&](LoopJointIndex i, const LoopJoint& joint) {
+    if (!joint.body.exists()) return;
+    Wrench<Real>& f = reactions.on_child[joint.body];
+    f.force = f.force + s.change[i].force;
+    f.moment = f.moment + s.change[i].moment;
   });
 }
 
 // The wrench of a closure with its share.
 template <class Real>
-inline void add_shared(const Mechanism& m, int closure, const SharedReactions<Real>& s,
+inline void add_shared(const Mechanism& m, ClosureIndex closure, const SharedReactions<Real>& s,
                        ClosureWrench<Real>& f) {
-  for_loop_joints(m, [&](int i, const LoopJoint& joint) {
+  for_loop_joints(m, [&](LoopJointIndex i, const LoopJoint& joint) {
     if (joint.closure != closure) return;
-    f.force = f.force + at(s.change, i).force;
-    f.torque = f.torque + at(s.change, i).moment;
+    f.force = f.force + s.change[i].force;
+    f.torque = f.torque + s.change[i].moment;
   });
 }
 

@@ -34,7 +34,7 @@ bool is_shut(const ClosureState<double>& x) {
 }
 
 // Appends row r of a model; a line of centres becomes the three ground axes.
-void add_row(const Model& from, std::size_t r, bool shut, Mechanism& m, Parameters<double>& p) {
+void add_row(const Model& from, RowIndex r, bool shut, Mechanism& m, Parameters<double>& p) {
   const Row& row = from.mechanism.sde_rows[r];
   const bool spreads = shut && row.kind == RowKind::line_of_centres;
   for (int d = kX; d <= (spreads ? kZ : kX); ++d) {
@@ -52,16 +52,14 @@ Model with_directions(const Model& model, const State<double>& s) {
   Mechanism& m = directed.mechanism;
   m.sde_rows.clear();
   directed.parameters.springs.clear();
-  for (std::size_t i = 0; i < m.closures.size(); ++i) {
+  for (const ClosureIndex i : indices_of(m.closures)) {
     ClosureStructure& c = m.closures[i];
     if (c.model != ClosureModel::sde) continue;
     const bool shut = c.has_line && is_shut(w.closures[i]);
-    const int begin = m.sde_row_count();
-    for (int r = c.row_begin; r < c.row_end; ++r) {
-      add_row(model, static_cast<std::size_t>(r), shut, m, directed.parameters);
-    }
+    const RowIndex begin = m.sde_rows.end_index();
+    for (const RowIndex r : rows_of(c)) add_row(model, r, shut, m, directed.parameters);
     c.row_begin = begin;
-    c.row_end = m.sde_row_count();
+    c.row_end = m.sde_rows.end_index();
     if (!shut) continue;
     c.has_line = false;
     c.point_rows = true;  // the line is the first row of its closure
@@ -74,10 +72,9 @@ void fill_kinematics(const Mechanism& m, const State<double>& s, MatrixXd& a) {
   a.block(0, m.nv, m.nv, m.nv).setIdentity();
   for (const Stage& stage : m.stages) {
     if (stage.motion != BasicMotion::ball) continue;
-    const Eigen::Map<const Eigen::Vector3d> omega(s.v.data() + stage.v);
-    for (int k = 0; k < 3; ++k) {
-      a.block<3, 1>(stage.v, stage.v + k) = -omega.cross(Eigen::Vector3d::Unit(k));
-    }
+    const Eigen::Map<const Eigen::Vector3d> omega(&s.v[stage.v]);
+    const int v = stage.v.value();
+    for (int k = 0; k < 3; ++k) a.block<3, 1>(v, v + k) = -omega.cross(Eigen::Vector3d::Unit(k));
   }
 }
 
@@ -96,7 +93,7 @@ void hold_contacts(const Mechanism& m, const std::vector<double>& approach, Work
   hold_contacts_open(m, w);
   for (std::size_t i = 0; i < approach.size(); ++i) {
     if (approach[i] < 0.0) continue;
-    w.memory[i] = {0.0, 0.0, 1.0, approach[i], 0.0};
+    w.memory[ContactIndex(i)] = {0.0, 0.0, 1.0, approach[i], 0.0};
   }
 }
 
@@ -124,8 +121,8 @@ Steps choose_steps(const Model& model, const State<double>& s, Workspace<double>
     steps.q = smooth.cwiseMin(part);
   }
   if (m.nz > 0 || std::isfinite(depth)) steps.v *= kRubbing;
-  const auto bend = [&](int z, const LugreParameters<double>& law) {
-    steps.z[z] = kBristleStep * law.mu_k / law.sigma0;
+  const auto bend = [&](BristleIndex z, const LugreParameters<double>& law) {
+    steps.z[z.value()] = kBristleStep * law.mu_k / law.sigma0;
   };
   for_bristles(m, model.parameters, bend);
   return steps;
@@ -138,7 +135,8 @@ MatrixXd position_rates_of(const Mechanism& m, const State<double>& s) {
     const int count = stage.motion == BasicMotion::ball ? 3 : 1;
     for (int k = 0; k < count; ++k) {
       const Eigen::Vector3d unit = Eigen::Vector3d::Unit(k);
-      position_rates(stage, s.q.data() + stage.q, unit.data(), &rates(stage.q, stage.v + k));
+      double* rate = &rates(stage.q.value(), stage.v.value() + k);
+      position_rates(stage, &s.q[stage.q], unit.data(), rate);
     }
   }
   return rates;
@@ -162,22 +160,23 @@ void fill_by_differences(const Model& model, const State<double>& s, Workspace<d
                          MatrixXd& a) {
   const Mechanism& m = model.mechanism;
   const Steps steps = choose_steps(model, s, w);
-  for (int k = 0; k < m.nv; ++k) {
+  for (const VelocityIndex k : velocities(m)) {
     const auto at_position = [&](double x) {
-      return slopes(model, displaced(m, s, x * VectorXd::Unit(m.nv, k)), w);
+      return slopes(model, displaced(m, s, x * VectorXd::Unit(m.nv, k.value())), w);
     };
     const auto at_velocity = [&](double x) {
       State<double> moved = s;
-      moved.v[static_cast<std::size_t>(k)] += x;
+      moved.v[k] += x;
       return slopes(model, moved, w);
     };
-    a.block(m.nv, k, m.nv + m.nz, 1) = differentiate(at_position, steps.q[k]).value;
-    a.block(m.nv, m.nv + k, m.nv + m.nz, 1) = differentiate(at_velocity, steps.v[k]).value;
+    a.block(m.nv, k.value(), m.nv + m.nz, 1) = differentiate(at_position, steps.q[k.value()]).value;
+    a.block(m.nv, m.nv + k.value(), m.nv + m.nz, 1) =
+        differentiate(at_velocity, steps.v[k.value()]).value;
   }
   for (int i = 0; i < m.nz; ++i) {
     const auto at_bristle = [&](double x) {
       State<double> moved = s;
-      moved.z[static_cast<std::size_t>(i)] += x;
+      moved.z[BristleIndex(i)] += x;
       return slopes(model, moved, w);
     };
     a.block(m.nv, 2 * m.nv + i, m.nv + m.nz, 1) = differentiate(at_bristle, steps.z[i]).value;

@@ -23,12 +23,12 @@ namespace {
 double greatest_value(const Model& model, const CourseStructure& c,
                       const CourseParameters<double>& n, double t) {
   const auto& segments = model.parameters.segments;
-  if (c.q < 0) {
-    return std::abs(course_value(c, n, segments.data(), course_argument<double>(c, n, t, nullptr)));
+  if (!c.q.exists()) {
+    return std::abs(course_value(c, n, segments, course_argument<double>(c, n, t, nullptr)));
   }
   double value = n.value, greatest = std::abs(value);
-  for (int i = c.begin; i < c.end; ++i) {
-    const SegmentParameters<double>& segment = segments[static_cast<std::size_t>(i)];
+  for (const SegmentIndex i : indices(c.begin, c.end)) {
+    const SegmentParameters<double>& segment = segments[i];
     value += segment.length * segment.slope;
     greatest = std::max(greatest, std::abs(value));
   }
@@ -42,9 +42,7 @@ Balance compute_balance(const Model& model, const State<double>& s, Workspace<do
   compute_motion(m, model.parameters, s, w);
   Balance b{Eigen::Map<const VectorXd>(w.tau.data(), m.nv), VectorXd(m.cut_row_count()),
             row_jacobian(m, model.parameters, w, m.cut_rows, w.cut_rows)};
-  for (std::size_t r = 0; r < w.cut_rows.size(); ++r) {
-    b.phi[static_cast<Eigen::Index>(r)] = w.cut_rows[r].d;
-  }
+  for (const RowIndex r : indices_of(w.cut_rows)) b.phi[r.value()] = w.cut_rows[r].d;
   return b;
 }
 
@@ -106,15 +104,15 @@ BalanceSystem make_balance_system(const MatrixXd& gradient, const Balance& b, co
 double force_scale(const Model& model, double t) {
   const Parameters<double>& p = model.parameters;
   double scale = 1e-6;
-  for (std::size_t b = 1; b < p.bodies.size(); ++b) {
+  for (const BodyIndex b : bodies_outwards(model.mechanism)) {
     scale = std::max(scale, p.bodies[b].mass * sqrt(dot(p.gravity, p.gravity)));
   }
-  for (std::size_t i = 0; i < p.loads.size(); ++i) {
+  for (const LoadIndex i : indices_of(p.loads)) {
     const LoadStructure& load = model.mechanism.loads[i];
     if (load.type == LoadType::resistance) continue;
     scale = std::max(scale, greatest_value(model, load.course, p.loads[i].course, t));
   }
-  for (std::size_t i = 0; i < p.point_springs.size(); ++i) {
+  for (const PointSpringIndex i : indices_of(p.point_springs)) {
     const PointSpringStructure& spring = model.mechanism.point_springs[i];
     if (!spring.is_driven) continue;
     scale = std::max(scale, greatest_value(model, spring.course, p.point_springs[i].course, t));
@@ -122,15 +120,15 @@ double force_scale(const Model& model, double t) {
   return scale;
 }
 
-std::string velocity_name(const Mechanism& m, int velocity) {
-  const auto body = static_cast<std::size_t>(m.velocities[static_cast<std::size_t>(velocity)].body);
+std::string velocity_name(const Mechanism& m, VelocityIndex velocity) {
+  const BodyIndex body = m.velocities[velocity].body;
   const Body& b = m.bodies[body];
   const std::string name = "joint." + m.joint_names[body];
   return b.v_count == 1 ? name : name + "." + std::to_string(velocity - b.v_begin);
 }
 
-const char* effort_unit(const Mechanism& m, int velocity) {
-  const VelocityKind kind = m.velocities[static_cast<std::size_t>(velocity)].kind;
+const char* effort_unit(const Mechanism& m, VelocityIndex velocity) {
+  const VelocityKind kind = m.velocities[velocity].kind;
   return kind == VelocityKind::translation ? "N" : "N m";
 }
 

@@ -50,7 +50,7 @@ Eigen::VectorXd take_entries(const Eigen::VectorXd& all, const std::vector<int>&
 double force_scale(const Model& model, double t);
 
 // "joint.A" or "joint.A.1", as channels name coordinates; "N" or "N m".
-std::string velocity_name(const Mechanism& m, int velocity);
-const char* effort_unit(const Mechanism& m, int velocity);
+std::string velocity_name(const Mechanism& m, VelocityIndex velocity);
+const char* effort_unit(const Mechanism& m, VelocityIndex velocity);
 
 }  // namespace linkstudy

@@ -9,6 +9,7 @@
 #include "core/dynamics/static_balance.h"
 #include "core/kinematics/assembly.h"
 #include "core/kinematics/scaled_closures.h"
+#include "core/model/walk.h"
 #include "core/numerics/dense.h"
 #include "core/spatial/rotation_vector.h"
 
@@ -90,15 +91,15 @@ class LeastUnbalance {
 std::string hint_at_sines(const Model& model, const State<double>& s, Workspace<double>& w) {
   const Mechanism& m = model.mechanism;
   compute_motion(m, model.parameters, s, w);
-  for (std::size_t i = 0; i < m.closures.size(); ++i) {
+  for (const ClosureIndex i : indices_of(m.closures)) {
     const ClosureStructure& c = m.closures[i];
     if (c.model != ClosureModel::sde || !c.needs_frames) continue;
-    const Vec3<double> phi = rotation_vector(w.closures[i].r1, w.closures[i].r2).phi;
+    const ClosureState<double>& x = w.closures[i];
+    const Vec3<double> phi = rotation_vector(x.r1, x.r2).phi;
     const double turn = std::sqrt(dot(phi, phi)) * 180.0 / std::numbers::pi;
-    for (int r = c.row_begin; r < c.row_end; ++r) {
-      const auto row = static_cast<std::size_t>(r);
-      const double stiffness = model.parameters.springs[row].stiffness;
-      if (m.sde_rows[row].kind != RowKind::rotation || stiffness == 0.0 || turn < kTurned) continue;
+    for (const RowIndex r : rows_of(c)) {
+      const double stiffness = model.parameters.springs[r].stiffness;
+      if (m.sde_rows[r].kind != RowKind::rotation || stiffness == 0.0 || turn < kTurned) continue;
       return "; closure '" + m.closure_names[i] + "' is turned by " + number(turn) +
              " deg there, and its measure of tilt is a sine: a stiffness k bears at most k/2 alone "
              "about an axis; tilt = \"angle\" bears k phi";
@@ -117,7 +118,7 @@ std::string describe_unbalance(const Model& model, const State<double>& start,
   Eigen::Index at = 0;
   const double largest = end.force.cwiseAbs().maxCoeff(&at);
   const VectorXd u = end.force.normalized();
-  const int k = free[static_cast<std::size_t>(at)];
+  const VelocityIndex k(free[static_cast<std::size_t>(at)]);
   const std::string what = number(largest) + " " + effort_unit(model.mechanism, k) + " at " +
                            velocity_name(model.mechanism, k);
   const auto against = [&](const MatrixXd& gradient) { return (gradient.transpose() * u).norm(); };

@@ -19,7 +19,7 @@ constexpr double kDoubts = 10.0;    // of the differences, that a stiffness must
 constexpr double kRank = 1e-7;      // of the closures' Jacobian
 
 bool slides(const Mechanism& m, int velocity) {
-  return m.velocities[static_cast<std::size_t>(velocity)].kind == VelocityKind::translation;
+  return m.velocities[VelocityIndex(velocity)].kind == VelocityKind::translation;
 }
 
 StiffnessUnit unit_of(const Mechanism& m, const std::vector<int>& free) {

@@ -32,11 +32,11 @@ VectorXd newton_step(const BalanceSystem& s, Eigen::Index closures) {
 }
 
 // Of what is piecewise linear: a curve or a course.
-template <class Segments>
-double steepest(const Model& model, const Segments& curve) {
+template <class Piecewise>
+double steepest(const Model& model, const Piecewise& curve) {
   double steepest = 0.0;
-  for (int k = curve.begin; k < curve.end; ++k) {
-    const double slope = model.parameters.segments[static_cast<std::size_t>(k)].slope;
+  for (const SegmentIndex k : indices(curve.begin, curve.end)) {
+    const double slope = model.parameters.segments[k].slope;
     steepest = std::max(steepest, std::abs(slope));
   }
   return steepest;
@@ -47,13 +47,14 @@ double stiffest_line(const Model& model, const State<double>& s) {
   Workspace<double> w = make_workspace<double>(model.mechanism);
   compute_motion(model.mechanism, model.parameters, s, w);
   double stiffest = 0.0;
-  for (std::size_t i = 0; i < w.point_springs.size(); ++i) {
+  for (const PointSpringIndex i : indices_of(w.point_springs)) {
     const PointSpringStructure& structure = model.mechanism.point_springs[i];
     const PointSpringState<double>& x = w.point_springs[i];
     stiffest = std::max(stiffest, model.parameters.point_springs[i].stiffness);
     if (x.length > 0.0) stiffest = std::max(stiffest, std::abs(x.force) / x.length);
     stiffest = std::max(stiffest, steepest(model, structure.curve));
-    if (structure.course.q >= 0) stiffest = std::max(stiffest, steepest(model, structure.course));
+    if (structure.course.q.exists())
+      stiffest = std::max(stiffest, steepest(model, structure.course));
   }
   return stiffest;
 }
@@ -64,7 +65,7 @@ double rounding_floor(const Model& model, const State<double>& s) {
   const Extent extent = compute_extent(model, s);
   const double reach = std::max(extent.farthest, extent.length) * std::max(extent.length, 1.0);
   double largest = 0.0;
-  for (std::size_t r = 0; r < model.mechanism.sde_rows.size(); ++r) {
+  for (const RowIndex r : indices_of(model.mechanism.sde_rows)) {
     const bool turns = measures_turn(model.mechanism.sde_rows[r].kind);
     largest = std::max(largest, model.parameters.springs[r].stiffness * (turns ? 1.0 : reach));
   }
@@ -72,16 +73,16 @@ double rounding_floor(const Model& model, const State<double>& s) {
     largest = std::max(largest, spring.stiffness * std::max(1.0, std::abs(spring.rest)));
   }
   for (const JointSpring& spring : model.mechanism.joint_springs) {
-    const double q = s.q[static_cast<std::size_t>(spring.q)];
+    const double q = s.q[spring.q];
     const double slope = steepest(model, spring.curve);
     largest = std::max(largest, slope * std::max(1.0, std::abs(q)));
   }
   for (const LoadStructure& load : model.mechanism.loads) {
-    if (load.course.q < 0) continue;
-    const double q = std::abs(s.q[static_cast<std::size_t>(load.course.q)]);
+    if (!load.course.q.exists()) continue;
+    const double q = std::abs(s.q[load.course.q]);
     largest = std::max(largest, steepest(model, load.course) * std::max({1.0, reach, q}));
   }
-  for (std::size_t i = 0; i < model.parameters.stops.size(); ++i) {
+  for (const StopIndex i : indices_of(model.parameters.stops)) {
     const StopParameters<double>& stop = model.parameters.stops[i];
     const double depth = stop_depth(model.mechanism.stops[i], stop, s.q.data());
     if (!(depth > 0.0)) continue;
@@ -116,13 +117,13 @@ class EquilibriumSearch {
       report_.reason = describe_unbalance(model_, start, free_, w_);
       return report_;
     }
-    for (std::size_t i = 0; i < s.q.size(); ++i) {
+    for (const PositionIndex i : indices_of(s.q)) {
       report_.displacement = std::max(report_.displacement, std::abs(x_.q[i] - s.q[i]));
     }
     report_.multipliers = lambda_;
     report_.holding = VectorXd::Zero(model_.mechanism.nv);
     const VectorXd net = net_force(balance_, lambda_);
-    for (const int k : model_.held) report_.holding[k] = -net[k];
+    for (const VelocityIndex k : model_.held) report_.holding[k.value()] = -net[k.value()];
     static_cast<StabilityReport&>(report_) = judge_stability(model_, x_, lambda_, free_, w_);
     s = x_;
     return report_;
@@ -178,10 +179,10 @@ StaticsReport solve_statics(const Model& model, State<double>& s) {
 
 Model with_holding_efforts(const Model& model, const StaticsReport& report) {
   Model held = model;
-  for (const int k : model.held) {
+  for (const VelocityIndex k : model.held) {
     if (is_driven(model.mechanism, k)) continue;
     held.mechanism.loads.push_back({.type = LoadType::drive, .v = k});
-    held.parameters.loads.push_back({{report.holding[k], 0.0, 0.0, 0.0}, 0.0, {}, {}});
+    held.parameters.loads.push_back({{report.holding[k.value()], 0.0, 0.0, 0.0}, 0.0, {}, {}});
   }
   return held;
 }

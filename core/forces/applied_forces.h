@@ -13,47 +13,48 @@
 namespace linkstudy {
 
 template <class Real>
-inline void add_drive(const LoadStructure& s, Real value, const Real* v, Workspace<Real>& w) {
-  at(w.tau, s.v) = at(w.tau, s.v) + value;
+inline void add_drive(const LoadStructure& s, Real value, Velocities<const Real> v,
+                      Workspace<Real>& w) {
+  w.tau[s.v] = w.tau[s.v] + value;
   w.supplied_power = madd(value, v[s.v], w.supplied_power);
 }
 
 template <class Real>
-inline void add_resistance(const LoadStructure& s, Real coefficient, const Real* v,
+inline void add_resistance(const LoadStructure& s, Real coefficient, Velocities<const Real> v,
                            Workspace<Real>& w) {
   const Real value = s.law == ResistanceShape::linear ? linear_resistance(v[s.v], coefficient)
                                                       : quadratic_resistance(v[s.v], coefficient);
-  at(w.tau, s.v) = at(w.tau, s.v) - value;
+  w.tau[s.v] = w.tau[s.v] - value;
   w.dissipated_power = madd(value, v[s.v], w.dissipated_power);
 }
 
 template <class Real>
 inline void add_link_load(const LoadStructure& s, const LoadParameters<Real>& n, Real value,
                           Workspace<Real>& w, Wrench<Real>& load) {
-  BodyState<Real>& b = at(w.bodies, s.body);
-  const Vec3<Real> e = value * (s.follows_link ? b.r * n.direction : n.direction);
+  BodyState<Real>& b = w.bodies[s.body];
+  const Vec3<Real> e = value * (s.follows_link ? b.R_WB * n.direction : n.direction);
   load = {e, zero3<Real>()};
-  if (s.type == LoadType::link_force) load = {cross(b.r * n.point, e), e};
+  if (s.type == LoadType::link_force) load = {cross(b.R_WB * n.point, e), e};
   b.wrench.force = b.wrench.force - load.force;
   b.wrench.moment = b.wrench.moment - load.moment;
-  w.supplied_power = w.supplied_power + dot(b.v, load.force) + dot(b.omega, load.moment);
+  w.supplied_power = w.supplied_power + dot(b.v_WB, load.force) + dot(b.w_WB, load.moment);
 }
 
 template <class Real>
-inline void add_loads(const Mechanism& m, const Parameters<Real>& p, Real t, const Real* q,
-                      const Real* v, Workspace<Real>& w) {
-  for (const int i : indices_of(m.loads)) {
-    const LoadStructure& s = at(m.loads, i);
-    const LoadParameters<Real>& n = at(p.loads, i);
+inline void add_loads(const Mechanism& m, const Parameters<Real>& p, Real t,
+                      Positions<const Real> q, Velocities<const Real> v, Workspace<Real>& w) {
+  for (const LoadIndex i : indices_of(m.loads)) {
+    const LoadStructure& s = m.loads[i];
+    const LoadParameters<Real>& n = p.loads[i];
     if (s.type == LoadType::resistance) {
       add_resistance(s, n.resistance, v, w);
       continue;
     }
-    const Real value = update_course(s.course, n.course, p.segments.data(), t, q, w);
+    const Real value = update_course(s.course, n.course, p.segments, t, q, w);
     if (s.type == LoadType::drive) {
       add_drive(s, value, v, w);
     } else {
-      add_link_load(s, n, value, w, at(w.link_loads, i));
+      add_link_load(s, n, value, w, w.link_loads[i]);
     }
   }
 }
@@ -61,22 +62,23 @@ inline void add_loads(const Mechanism& m, const Parameters<Real>& p, Real t, con
 // A curve beside the spring: tau = -curve(q).
 template <class Real>
 inline void add_joint_curve(const JointSpring& s, const JointSpringParameters<Real>& n,
-                            const SegmentParameters<Real>* segments, Real q, Workspace<Real>& w) {
-  at(w.tau, s.v) = at(w.tau, s.v) - curve_force(s.curve, n.curve, segments, q);
-  at(w.spring_weights, s.bend) = abs(curve_slope(s.curve, segments, q));
+                            const Segments<Real>& segments, Real q, Workspace<Real>& w) {
+  w.tau[s.v] = w.tau[s.v] - curve_force(s.curve, n.curve, segments, q);
+  w.spring_weights[s.bend] = abs(curve_slope(s.curve, segments, q));
 }
 
 // Springs and dampers of tree joints, such as the sdes of a flexible link ([AugUrb18] sec. 3):
 // tau = -c (q - rest) - b v.
 template <class Real>
-inline void add_joint_springs(const Mechanism& m, const Parameters<Real>& p, const Real* q,
-                              const Real* v, Workspace<Real>& w) {
-  for (const int i : indices_of(m.joint_springs)) {
-    const JointSpring& s = at(m.joint_springs, i);
-    const JointSpringParameters<Real>& n = at(p.joint_springs, i);
+inline void add_joint_springs(const Mechanism& m, const Parameters<Real>& p,
+                              Positions<const Real> q, Velocities<const Real> v,
+                              Workspace<Real>& w) {
+  for (const JointSpringIndex i : indices_of(m.joint_springs)) {
+    const JointSpring& s = m.joint_springs[i];
+    const JointSpringParameters<Real>& n = p.joint_springs[i];
     const Real damping = n.damping * v[s.v];
-    at(w.tau, s.v) = at(w.tau, s.v) - madd(n.stiffness, q[s.q] - n.rest, damping);
-    if (s.bend >= 0) add_joint_curve(s, n, p.segments.data(), q[s.q], w);
+    w.tau[s.v] = w.tau[s.v] - madd(n.stiffness, q[s.q] - n.rest, damping);
+    if (s.bend.exists()) add_joint_curve(s, n, p.segments, q[s.q], w);
     w.dissipated_power = madd(damping, v[s.v], w.dissipated_power);
   }
 }
@@ -84,8 +86,9 @@ inline void add_joint_springs(const Mechanism& m, const Parameters<Real>& p, con
 // BodyState::wrench holds the inertial wrenches; the forces are taken off them.
 template <class Real>
 inline void update_applied_forces(const Mechanism& m, const Parameters<Real>& p, Real t,
-                                  const Real* q, const Real* v, Workspace<Real>& w) {
-  for (const int k : velocities(m)) at(w.tau, k) = Real(0.0);
+                                  Positions<const Real> q, Velocities<const Real> v,
+                                  Workspace<Real>& w) {
+  for (const VelocityIndex k : velocities(m)) w.tau[k] = Real(0.0);
   w.supplied_power = Real(0.0);
   w.dissipated_power = w.contact_power = Real(0.0);
   add_loads(m, p, t, q, v, w);

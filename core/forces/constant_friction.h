@@ -15,8 +15,8 @@ namespace linkstudy {
 template <class Real>
 inline Vec3<Real> turn_in_child(const ConstantFrictionStructure& s, int k,
                                 const Workspace<Real>& w) {
-  const Mat3<Real>& r = at(w.bodies, s.body).r;
-  const Vec3<Real>& axis = at(w.axes, s.v + k);
+  const Mat3<Real>& r = w.bodies[s.body].R_WB;
+  const Vec3<Real>& axis = w.axes[s.v + k];
   return {dot(r.x, axis), dot(r.y, axis), dot(r.z, axis)};
 }
 
@@ -24,7 +24,7 @@ inline Vec3<Real> turn_in_child(const ConstantFrictionStructure& s, int k,
 template <std::size_t Count, class Real>
 inline std::array<Real, Count> sliding_speeds(const ConstantFrictionStructure& s,
                                               const ConstantFrictionParameters<Real>& n,
-                                              const Real* v, const Workspace<Real>& w) {
+                                              Velocities<const Real> v, const Workspace<Real>& w) {
   std::array<Real, Count> u;
   if constexpr (Count == 3) {
     if (s.has_angles) {
@@ -45,27 +45,27 @@ inline void brake(const ConstantFrictionStructure& s, const std::array<Real, 3>&
     if (s.has_angles) {
       const Vec3<Real> moment{effort[0], effort[1], effort[2]};
       for (int k = 0; k < 3; ++k) {
-        at(w.tau, s.v + k) = at(w.tau, s.v + k) - dot(turn_in_child(s, k, w), moment);
+        w.tau[s.v + k] = w.tau[s.v + k] - dot(turn_in_child(s, k, w), moment);
       }
       return;
     }
   }
   for (std::size_t k = 0; k < Count; ++k) {
-    Real& tau = at(w.tau, s.v + static_cast<int>(k));
+    Real& tau = w.tau[s.v + static_cast<int>(k)];
     tau = tau - effort[k];
   }
 }
 
 template <std::size_t Count, class Real>
 inline void rub(const ConstantFrictionStructure& s, const ConstantFrictionParameters<Real>& n,
-                const Real* v, ConstantFrictionState<Real>& x, Workspace<Real>& w) {
+                Velocities<const Real> v, ConstantFrictionState<Real>& x, Workspace<Real>& w) {
   const std::array<Real, Count> u = sliding_speeds<Count>(s, n, v, w);
   std::array<Real, Count> z;
-  for (std::size_t k = 0; k < Count; ++k) z[k] = at(w.z, s.z + static_cast<int>(k));
+  for (std::size_t k = 0; k < Count; ++k) z[k] = w.z[s.z + static_cast<int>(k)];
   const LugreVectorState<Real, Count> f = lugre_friction(n.law, z, u);
   x.relaxation = f.relaxation;
   for (std::size_t k = 0; k < Count; ++k) {
-    at(w.z_rate, s.z + static_cast<int>(k)) = f.z_rate[k];
+    w.z_rate[s.z + static_cast<int>(k)] = f.z_rate[k];
     const Real force = n.load * f.mu[k];
     x.effort[k] = n.arm[k] * force;
     w.dissipated_power = madd(force, u[k], w.dissipated_power);
@@ -74,12 +74,12 @@ inline void rub(const ConstantFrictionStructure& s, const ConstantFrictionParame
 }
 
 template <class Real>
-inline void add_constant_friction(const Mechanism& m, const Parameters<Real>& p, const Real* v,
-                                  Workspace<Real>& w) {
-  for (const int i : indices_of(m.constant_frictions)) {
-    const ConstantFrictionStructure& s = at(m.constant_frictions, i);
-    const ConstantFrictionParameters<Real>& n = at(p.constant_frictions, i);
-    ConstantFrictionState<Real>& x = at(w.constant_frictions, i);
+inline void add_constant_friction(const Mechanism& m, const Parameters<Real>& p,
+                                  Velocities<const Real> v, Workspace<Real>& w) {
+  for (const ConstantFrictionIndex i : indices_of(m.constant_frictions)) {
+    const ConstantFrictionStructure& s = m.constant_frictions[i];
+    const ConstantFrictionParameters<Real>& n = p.constant_frictions[i];
+    ConstantFrictionState<Real>& x = w.constant_frictions[i];
     if (s.count == 1) rub<1>(s, n, v, x, w);
     if (s.count == 2) rub<2>(s, n, v, x, w);
     if (s.count == 3) rub<3>(s, n, v, x, w);

@@ -11,15 +11,15 @@ namespace linkstudy {
 // What a course goes by, within one period where it repeats: s, rad or m.
 template <class Real>
 inline Real course_argument(const CourseStructure& s, const CourseParameters<Real>& n, Real t,
-                            const Real* q) {
-  const Real x = s.q < 0 ? t : q[s.q];
+                            Positions<const Real> q) {
+  const Real x = s.q.exists() ? q[s.q] : t;
   return s.repeats ? within_period(x, n.origin, n.period) : x;
 }
 
 // Amplitude there of a load or an actuator, N or N m.
 template <class Real>
 inline Real course_value(const CourseStructure& s, const CourseParameters<Real>& n,
-                         const SegmentParameters<Real>* segments, Real x) {
+                         const Segments<Real>& segments, Real x) {
   switch (s.shape) {
     case CourseShape::constant:
       return n.value;
@@ -31,7 +31,7 @@ inline Real course_value(const CourseStructure& s, const CourseParameters<Real>&
       break;
   }
   Real value = n.value;
-  for (int i = s.begin; i < s.end; ++i) {
+  for (const SegmentIndex i : indices(s.begin, s.end)) {
     const SegmentParameters<Real>& g = segments[i];
     value = value + linear_segment(x, g.begin, g.length, g.slope);
   }
@@ -41,11 +41,11 @@ inline Real course_value(const CourseStructure& s, const CourseParameters<Real>&
 // The amplitude at time t and q; a table over a coordinate notes how steep it is there.
 template <class Real>
 inline Real update_course(const CourseStructure& s, const CourseParameters<Real>& n,
-                          const SegmentParameters<Real>* segments, Real t, const Real* q,
+                          const Segments<Real>& segments, Real t, Positions<const Real> q,
                           Workspace<Real>& w) {
   const Real x = course_argument(s, n, t, q);
-  if (s.bend >= 0) {
-    at(w.spring_weights, s.bend) = abs(curve_slope(CurveStructure{s.begin, s.end}, segments, x));
+  if (s.bend.exists()) {
+    w.spring_weights[s.bend] = abs(curve_slope(CurveStructure{s.begin, s.end}, segments, x));
   }
   return course_value(s, n, segments, x);
 }

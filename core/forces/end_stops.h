@@ -17,7 +17,8 @@ inline Real towards_stop(const StopStructure& s, Real x) {
 }
 
 template <class Real>
-inline Real stop_depth(const StopStructure& s, const StopParameters<Real>& n, const Real* q) {
+inline Real stop_depth(const StopStructure& s, const StopParameters<Real>& n,
+                       Positions<const Real> q) {
   return towards_stop(s, q[s.q] - n.limit);
 }
 
@@ -31,10 +32,10 @@ inline ContactForce<Real> stop_force(const StopStructure& s, const StopParameter
 }
 
 template <class Real>
-inline void add_stop(const StopStructure& s, const StopParameters<Real>& n, const Real* q,
-                     const Real* v, Workspace<Real>& w) {
-  const ContactMemory<Real>& memory = at(w.memory, s.contact);
-  ContactState<Real>& x = at(w.contacts, s.contact);
+inline void add_stop(const StopStructure& s, const StopParameters<Real>& n, Positions<const Real> q,
+                     Velocities<const Real> v, Workspace<Real>& w) {
+  const ContactMemory<Real>& memory = w.memory[s.contact];
+  ContactState<Real>& x = w.contacts[s.contact];
   x.depth = stop_depth(s, n, q);
   x.rate = towards_stop(s, v[s.v]);
   x.approach = approach_speed(s.approach, memory, x.depth, x.rate);
@@ -42,15 +43,15 @@ inline void add_stop(const StopStructure& s, const StopParameters<Real>& n, cons
   const ContactForce<Real> f = stop_force(s, n, x.depth, x.rate, x.approach);
   x.normal = select(acts, f.normal, Real(0.0));
   x.elastic = select(acts, f.elastic, Real(0.0));
-  at(w.tau, s.v) = at(w.tau, s.v) - towards_stop(s, x.normal);
+  w.tau[s.v] = w.tau[s.v] - towards_stop(s, x.normal);
   w.dissipated_power = madd(x.normal - x.elastic, x.rate, w.dissipated_power);
   w.contact_power = madd(x.normal - x.elastic, x.rate, w.contact_power);
 }
 
 template <class Real>
-inline void add_stops(const Mechanism& m, const Parameters<Real>& p, const Real* q, const Real* v,
-                      Workspace<Real>& w) {
-  for (const int i : indices_of(m.stops)) add_stop(at(m.stops, i), at(p.stops, i), q, v, w);
+inline void add_stops(const Mechanism& m, const Parameters<Real>& p, Positions<const Real> q,
+                      Velocities<const Real> v, Workspace<Real>& w) {
+  for (const StopIndex i : indices_of(m.stops)) add_stop(m.stops[i], p.stops[i], q, v, w);
 }
 
 }  // namespace linkstudy

@@ -9,9 +9,9 @@ namespace linkstudy {
 
 template <class Real>
 inline Real curve_force(const CurveStructure& s, const CurveParameters<Real>& n,
-                        const SegmentParameters<Real>* segments, Real x) {
+                        const Segments<Real>& segments, Real x) {
   Real force = n.value;
-  for (int i = s.begin; i < s.end; ++i) {
+  for (const SegmentIndex i : indices(s.begin, s.end)) {
     const SegmentParameters<Real>& g = segments[i];
     force = force + linear_segment(x, g.begin, g.length, g.slope);
   }
@@ -19,9 +19,9 @@ inline Real curve_force(const CurveStructure& s, const CurveParameters<Real>& n,
 }
 
 template <class Real>
-inline Real curve_slope(const CurveStructure& s, const SegmentParameters<Real>* segments, Real x) {
+inline Real curve_slope(const CurveStructure& s, const Segments<Real>& segments, Real x) {
   Real slope(0.0);
-  for (int i = s.begin; i < s.end; ++i) {
+  for (const SegmentIndex i : indices(s.begin, s.end)) {
     const SegmentParameters<Real>& g = segments[i];
     slope = slope + linear_segment_slope(x, g.begin, g.length, g.slope);
   }
@@ -31,9 +31,9 @@ inline Real curve_slope(const CurveStructure& s, const SegmentParameters<Real>* 
 // The integral of the force, exactly.
 template <class Real>
 inline Real curve_energy(const CurveStructure& s, const CurveParameters<Real>& n,
-                         const SegmentParameters<Real>* segments, Real x) {
+                         const Segments<Real>& segments, Real x) {
   Real energy = madd(n.value, x - n.begin, n.energy);
-  for (int i = s.begin; i < s.end; ++i) {
+  for (const SegmentIndex i : indices(s.begin, s.end)) {
     const SegmentParameters<Real>& g = segments[i];
     energy = energy + linear_segment_integral(x, g.begin, g.length, g.slope);
   }

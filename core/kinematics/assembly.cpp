@@ -69,11 +69,11 @@ Closing solve(const Mechanism& m, const Equations& equations, const std::vector<
 struct AxisPair {
   Eigen::Vector3d first, second;
 };
-std::vector<AxisPair> aligned_axes(const Model& model, Workspace<double>& w, std::size_t i) {
+std::vector<AxisPair> aligned_axes(const Model& model, Workspace<double>& w, ClosureIndex i) {
   const Mechanism& m = model.mechanism;
   const ClosureStructure& c = m.closures[i];
   ClosureState<double>& pose = w.closures[i];
-  update_closure_pose(m, c, model.parameters.closures[i], w.bodies.data(), pose);
+  update_closure_pose(m, c, model.parameters.closures[i], w.bodies, pose);
   const unsigned blocked = blocked_directions(m, c);
   const bool x = (blocked >> kTheta & 1u) && (blocked >> kPsi & 1u);
   const bool y = x && (blocked >> kPhi & 1u);
@@ -87,7 +87,7 @@ std::vector<AxisPair> aligned_axes(const Model& model, Workspace<double>& w, std
 }
 
 struct Flipped {
-  std::size_t closure;
+  ClosureIndex closure;
   bool is_turned;  // it holds the whole orientation: its ends are another way round than described
 };
 std::vector<Flipped> flipped_closures(const Model& model, const State<double>& s) {
@@ -95,7 +95,7 @@ std::vector<Flipped> flipped_closures(const Model& model, const State<double>& s
   Workspace<double> w = make_workspace<double>(m);
   update_kinematics(m, model.parameters, s.q.data(), s.v.data(), w);
   std::vector<Flipped> flipped;
-  for (std::size_t i = 0; i < m.closures.size(); ++i) {
+  for (const ClosureIndex i : indices_of(m.closures)) {
     const std::vector<AxisPair> pairs = aligned_axes(model, w, i);
     const bool opposite = std::any_of(
         pairs.begin(), pairs.end(), [](const AxisPair& p) { return p.first.dot(p.second) < 0.0; });
@@ -122,7 +122,7 @@ VectorXd aligning_residual(const Model& model, const ClosureScale& scale, const 
   update_kinematics(m, model.parameters, s.q.data(), s.v.data(), w);
   const VectorXd rows = scaled_equations(model, scale, s).residual;
   std::vector<double> r(rows.begin(), rows.end());
-  for (std::size_t i = 0; i < m.closures.size(); ++i) {
+  for (const ClosureIndex i : indices_of(m.closures)) {
     for (const AxisPair& p : aligned_axes(model, w, i)) {
       for (int k = 0; k < 3; ++k) r.push_back(p.second[k] - p.first[k]);
     }
@@ -136,11 +136,11 @@ ClosureEquations aligning_equations(const Model& model, const ClosureScale& scal
   const Mechanism& m = model.mechanism;
   ClosureEquations e{aligning_residual(model, scale, s), {}};
   e.jacobian.resize(e.residual.size(), m.nv);
-  for (int k = 0; k < m.nv; ++k) {
-    const VectorXd dq = h * VectorXd::Unit(m.nv, k);
-    e.jacobian.col(k) = (aligning_residual(model, scale, displaced(m, s, dq)) -
-                         aligning_residual(model, scale, displaced(m, s, -dq))) /
-                        (2.0 * h);
+  for (const VelocityIndex k : velocities(m)) {
+    const VectorXd dq = h * VectorXd::Unit(m.nv, k.value());
+    e.jacobian.col(k.value()) = (aligning_residual(model, scale, displaced(m, s, dq)) -
+                                 aligning_residual(model, scale, displaced(m, s, -dq))) /
+                                (2.0 * h);
   }
   return e;
 }
@@ -183,12 +183,9 @@ State<double> perturbed(const Model& model, const std::vector<int>& free, const 
   return displaced(model.mechanism, s, scatter_entries(dq, free, model.mechanism.nv));
 }
 
-double distance(const Mechanism& m, const State<double>& a, const State<double>& b) {
+double distance(const State<double>& a, const State<double>& b) {
   double square = 0.0;
-  for (int i = 0; i < m.nq; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    square += (a.q[k] - b.q[k]) * (a.q[k] - b.q[k]);
-  }
+  for (const PositionIndex i : indices_of(a.q)) square += (a.q[i] - b.q[i]) * (a.q[i] - b.q[i]);
   return std::sqrt(square);
 }
 
@@ -228,23 +225,22 @@ void find_branch(const Model& model, const State<double>& s, const MatrixXd& jac
 
 void name_worst_closure(const Model& model, const VectorXd& residual, AssemblyReport& report) {
   double worst = -1.0;
-  for (std::size_t i = 0; i < model.mechanism.closures.size(); ++i) {
+  for (const ClosureIndex i : indices_of(model.mechanism.closures)) {
     const ClosureStructure& c = model.mechanism.closures[i];
-    const double r = residual.segment(c.row_begin, c.row_end - c.row_begin).norm();
+    const double r = residual.segment(c.row_begin.value(), c.row_end - c.row_begin).norm();
     if (r <= worst) continue;
     worst = r;
     report.worst_closure = model.mechanism.closure_names[i];
     double gap = 0.0, tilt = 0.0;
-    for (int row = c.row_begin; row < c.row_end; ++row) {
-      const auto k = static_cast<std::size_t>(row);
-      const bool turns = measures_turn(model.mechanism.cut_rows[k].kind);
-      (turns ? tilt : gap) += residual[row] * residual[row];
+    for (const RowIndex row : rows_of(c)) {
+      const bool turns = measures_turn(model.mechanism.cut_rows[row].kind);
+      (turns ? tilt : gap) += residual[row.value()] * residual[row.value()];
     }
     report.worst_gap = std::sqrt(gap);
     report.worst_tilt = std::asin(std::min(1.0, std::sqrt(tilt)));
   }
-  for (std::size_t i = 0; i < model.mechanism.couplings.size(); ++i) {
-    const double r = std::abs(residual[model.mechanism.couplings[i].row]);
+  for (const CouplingIndex i : indices_of(model.mechanism.couplings)) {
+    const double r = std::abs(residual[model.mechanism.couplings[i].row.value()]);
     if (r <= worst) continue;
     worst = r;
     report.worst_closure.clear();
@@ -339,9 +335,9 @@ std::string open_text(const AssemblyReport& report) {
 
 std::vector<int> free_velocities(const Model& model) {
   std::vector<int> free;
-  for (int k = 0; k < model.mechanism.nv; ++k) {
+  for (const VelocityIndex k : velocities(model.mechanism)) {
     const bool held = std::find(model.held.begin(), model.held.end(), k) != model.held.end();
-    if (!held) free.push_back(k);
+    if (!held) free.push_back(k.value());
   }
   return free;
 }
@@ -365,9 +361,7 @@ ClosureEquations compute_closure_equations(const Mechanism& m, const Parameters<
   update_kinematics(m, p, s.q.data(), s.v.data(), w);
   update_rows<RowStorage::cut>(m, p, w);
   ClosureEquations e{VectorXd(m.cut_row_count()), row_jacobian(m, p, w, m.cut_rows, w.cut_rows)};
-  for (std::size_t r = 0; r < w.cut_rows.size(); ++r) {
-    e.residual[static_cast<Eigen::Index>(r)] = w.cut_rows[r].d;
-  }
+  for (const RowIndex r : indices_of(w.cut_rows)) e.residual[r.value()] = w.cut_rows[r].d;
   return e;
 }
 
@@ -397,7 +391,7 @@ AssemblyReport assemble_start(const Model& closed, State<double>& start) {
     scaled = std::min(scaled, best.residual);
     e = compute_closure_equations(m, closed.parameters, start);
     report.residual = e.residual.norm();
-    report.displacement = distance(m, given, start);
+    report.displacement = distance(given, start);
   }
   report.closed = scaled <= kClosedTolerance;
   for (const Flipped& f : flipped_closures(closed, start)) {

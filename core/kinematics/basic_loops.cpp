@@ -2,28 +2,29 @@
 
 #include <algorithm>
 
+#include "core/model/walk.h"
+
 namespace linkstudy {
 namespace {
 
 // Bodies from one (left out) outwards to another.
-std::vector<int> way_to(const Mechanism& m, int from, int to) {
-  std::vector<int> bodies;
-  for (; to != from; to = m.bodies[static_cast<std::size_t>(to)].parent) bodies.push_back(to);
+std::vector<BodyIndex> way_to(const Mechanism& m, BodyIndex from, BodyIndex to) {
+  std::vector<BodyIndex> bodies;
+  for (; to != from; to = m.bodies[to].parent) bodies.push_back(to);
   std::reverse(bodies.begin(), bodies.end());
   return bodies;
 }
 
 // Parents have lower numbers than their children.
-int meeting_body(const Mechanism& m, int a, int b) {
-  while (a != b) (a > b ? a : b) = m.bodies[static_cast<std::size_t>(std::max(a, b))].parent;
+BodyIndex meeting_body(const Mechanism& m, BodyIndex a, BodyIndex b) {
+  while (a != b) (a > b ? a : b) = m.bodies[std::max(a, b)].parent;
   return a;
 }
 
-std::vector<int> velocities_of(const Mechanism& m, const std::vector<int>& bodies) {
-  std::vector<int> velocities;
-  for (const int b : bodies) {
-    const Body& body = m.bodies[static_cast<std::size_t>(b)];
-    for (int k = 0; k < body.v_count; ++k) velocities.push_back(body.v_begin + k);
+std::vector<VelocityIndex> velocities_of(const Mechanism& m, const std::vector<BodyIndex>& bodies) {
+  std::vector<VelocityIndex> velocities;
+  for (const BodyIndex b : bodies) {
+    for (const VelocityIndex k : velocities_of(m.bodies[b])) velocities.push_back(k);
   }
   return velocities;
 }
@@ -32,19 +33,17 @@ std::vector<int> velocities_of(const Mechanism& m, const std::vector<int>& bodie
 
 std::vector<BasicLoop> find_basic_loops(const Mechanism& m) {
   std::vector<BasicLoop> loops;
-  for (std::size_t i = 0; i < m.closures.size(); ++i) {
+  for (const ClosureIndex i : indices_of(m.closures)) {
     const ClosureStructure& c = m.closures[i];
     BasicLoop loop;
-    loop.closure = static_cast<int>(i);
+    loop.closure = i;
     loop.common = meeting_body(m, c.first, c.second);
-    const std::vector<int> out = way_to(m, loop.common, c.first);
-    std::vector<int> back = way_to(m, loop.common, c.second);
+    const std::vector<BodyIndex> out = way_to(m, loop.common, c.first);
+    std::vector<BodyIndex> back = way_to(m, loop.common, c.second);
     loop.first = velocities_of(m, out);
     loop.second = velocities_of(m, back);
     std::reverse(back.begin(), back.end());
-    const auto add = [&](int b) {
-      loop.joints.push_back("joint." + m.joint_names[static_cast<std::size_t>(b)]);
-    };
+    const auto add = [&](BodyIndex b) { loop.joints.push_back("joint." + m.joint_names[b]); };
     std::for_each(out.begin(), out.end(), add);
     loop.joints.push_back("closure." + m.closure_names[i]);
     std::for_each(back.begin(), back.end(), add);

@@ -10,9 +10,9 @@
 namespace linkstudy {
 
 struct BasicLoop {
-  int closure = 0;
-  int common = 0;                   // body where the two ways meet
-  std::vector<int> first, second;   // velocities on the ways from there, outwards
+  ClosureIndex closure;
+  BodyIndex common;                          // where the two ways meet
+  std::vector<VelocityIndex> first, second;  // on the ways from there, outwards
   std::vector<std::string> joints;  // round the loop: "joint.A", .., "closure.S", .., "joint.D"
 };
 

@@ -13,35 +13,34 @@ namespace linkstudy {
 // (translation), carried outwards by a += alpha x shift.
 template <class Real>
 inline void add_joint_accelerations(const Mechanism& m, const Parameters<Real>& p,
-                                    const Workspace<Real>& w, int b,
-                                    std::vector<BodyState<Real>>& moving) {
-  const int parent = at(m.bodies, b).parent;
-  BodyState<Real>& s = at(moving, b);
-  const BodyState<Real>& sp = at(moving, parent);
-  const BodyState<Real>& wp = at(w.bodies, parent);
-  Vec3<Real> alpha = sp.alpha - wp.alpha;
-  Vec3<Real> a = sp.a - wp.a + cross(alpha, at(w.bodies, b).p - wp.p);
-  for (const int k : velocities_of(at(m.bodies, b))) {
-    const Velocity& velocity = at(m.velocities, k);
-    const Vec3<Real> e = at(w.qdd, k) * at(w.axes, k);
+                                    const Workspace<Real>& w, BodyIndex b,
+                                    BodyStates<Real>& moving) {
+  const BodyIndex parent = m.bodies[b].parent;
+  BodyState<Real>& s = moving[b];
+  const BodyState<Real>& sp = moving[parent];
+  const BodyState<Real>& wp = w.bodies[parent];
+  Vec3<Real> alpha = sp.alpha_WB - wp.alpha_WB;
+  Vec3<Real> a = sp.a_WB - wp.a_WB + cross(alpha, w.bodies[b].p_WB - wp.p_WB);
+  for (const VelocityIndex k : velocities_of(m.bodies[b])) {
+    const Velocity& velocity = m.velocities[k];
+    const Vec3<Real> e = w.qdd[k] * w.axes[k];
     if (velocity.kind == VelocityKind::translation) {
       a = a + e;
       continue;
     }
     alpha = alpha + e;
-    if (velocity.kind == VelocityKind::screw) a = madd(at(p.pitch, velocity.stage), e, a);
+    if (velocity.kind == VelocityKind::screw) a = madd(p.pitch[velocity.stage], e, a);
   }
-  s.alpha = s.alpha + alpha;
-  s.a = s.a + a;
+  s.alpha_WB = s.alpha_WB + alpha;
+  s.a_WB = s.a_WB + a;
 }
 
 // The states of `w` with accelerations of its qdd; `moving` is as long as they are.
 template <class Real>
 inline void update_body_accelerations(const Mechanism& m, const Parameters<Real>& p,
-                                      const Workspace<Real>& w,
-                                      std::vector<BodyState<Real>>& moving) {
+                                      const Workspace<Real>& w, BodyStates<Real>& moving) {
   moving = w.bodies;
-  for (const int b : bodies_outwards(m)) add_joint_accelerations(m, p, w, b, moving);
+  for (const BodyIndex b : bodies_outwards(m)) add_joint_accelerations(m, p, w, b, moving);
 }
 
 }  // namespace linkstudy

@@ -27,40 +27,40 @@ inline bool acts_at_both_points(RowKind kind) {
 
 template <class Real>
 inline void update_closure_pose(const Mechanism& m, const ClosureStructure& c,
-                                const ClosureParameters<Real>& n, const BodyState<Real>* bodies,
+                                const ClosureParameters<Real>& n, const BodyStates<Real>& bodies,
                                 ClosureState<Real>& x) {
   const BodyState<Real>& b1 = bodies[c.first];
   const BodyState<Real>& b2 = bodies[c.second];
-  x.arm_1 = rotate(b1.r, n.point_1, c.point_1);
-  x.arm_2 = rotate(b2.r, n.point_2, c.point_2);
-  x.p1 = b1.p + x.arm_1;
-  x.p2 = b2.p + x.arm_2;
-  x.v1 = b1.v;
-  x.v2 = b2.v;
-  const bool turns_1 = at(m.bodies, c.first).rotates;
-  const bool turns_2 = at(m.bodies, c.second).rotates;
-  if (turns_1) x.v1 = x.v1 + cross(b1.omega, x.arm_1);
-  if (turns_2) x.v2 = x.v2 + cross(b2.omega, x.arm_2);
+  x.arm_1 = rotate(b1.R_WB, n.point_1, c.point_1);
+  x.arm_2 = rotate(b2.R_WB, n.point_2, c.point_2);
+  x.p1 = b1.p_WB + x.arm_1;
+  x.p2 = b2.p_WB + x.arm_2;
+  x.v1 = b1.v_WB;
+  x.v2 = b2.v_WB;
+  const bool turns_1 = m.bodies[c.first].rotates;
+  const bool turns_2 = m.bodies[c.second].rotates;
+  if (turns_1) x.v1 = x.v1 + cross(b1.w_WB, x.arm_1);
+  if (turns_2) x.v2 = x.v2 + cross(b2.w_WB, x.arm_2);
   if (!c.needs_frames) return;
-  x.r1 = b1.r * n.frame_1;
-  x.r2 = b2.r * n.frame_2;
+  x.r1 = b1.R_WB * n.frame_1;
+  x.r2 = b2.R_WB * n.frame_2;
 }
 
 // Acceleration for qdd = 0, less gravity, of a point `arm` from the origin that moves with v.
 template <class Real>
 inline Vec3<Real> point_acceleration(const Body& body, const BodyState<Real>& b,
                                      const Vec3<Real>& arm, const Vec3<Real>& v) {
-  if (!body.rotates) return b.a;
-  const Vec3<Real> a = b.a + cross(b.omega, v - b.v);
-  return body.gyrates ? a + cross(b.alpha, arm) : a;
+  if (!body.rotates) return b.a_WB;
+  const Vec3<Real> a = b.a_WB + cross(b.w_WB, v - b.v_WB);
+  return body.gyrates ? a + cross(b.alpha_WB, arm) : a;
 }
 
 // a2 - a1 of the closure points for qdd = 0.
 template <class Real>
 inline Vec3<Real> gap_acceleration(const Mechanism& m, const ClosureStructure& c,
-                                   const BodyState<Real>* bodies, const ClosureState<Real>& x) {
-  return point_acceleration(at(m.bodies, c.second), bodies[c.second], x.arm_2, x.v2) -
-         point_acceleration(at(m.bodies, c.first), bodies[c.first], x.arm_1, x.v1);
+                                   const BodyStates<Real>& bodies, const ClosureState<Real>& x) {
+  return point_acceleration(m.bodies[c.second], bodies[c.second], x.arm_2, x.v2) -
+         point_acceleration(m.bodies[c.first], bodies[c.first], x.arm_1, x.v1);
 }
 
 // Gap, its rate and acceleration seen from a frame that turns with the first body.
@@ -73,10 +73,10 @@ template <class Real>
 inline TurningGap<Real> gap_seen_from_first(const BodyState<Real>& b1, const ClosureState<Real>& x,
                                             const Vec3<Real>& acceleration) {
   const Vec3<Real> gap = x.p2 - x.p1;
-  const Vec3<Real> carried = cross(b1.omega, gap);
+  const Vec3<Real> carried = cross(b1.w_WB, gap);
   const Vec3<Real> rate = x.v2 - x.v1 - carried;
   return {gap, rate,
-          acceleration - cross(b1.alpha, gap) - cross(b1.omega, madd(Real(2.0), rate, carried))};
+          acceleration - cross(b1.alpha_WB, gap) - cross(b1.w_WB, madd(Real(2.0), rate, carried))};
 }
 
 template <class Real>
@@ -103,12 +103,12 @@ inline void update_rotation_row(const Row& r, const ClosureState<Real>& x,
   const Vec3<Real>& a = column(x.r1, r.axis);
   const Vec3<Real>& b = column(x.r2, r.other);
   const Real sign(r.sign);
-  const Vec3<Real> omega = b2.omega - b1.omega;
-  const Vec3<Real> rate = cross(cross(b2.omega, b), a) + cross(b, cross(b1.omega, a));
+  const Vec3<Real> omega = b2.w_WB - b1.w_WB;
+  const Vec3<Real> rate = cross(cross(b2.w_WB, b), a) + cross(b, cross(b1.w_WB, a));
   row.couple = sign * cross(b, a);
   row.d = sign * dot(a, b);
   row.rate = dot(row.couple, omega);
-  row.bias = dot(row.couple, b2.alpha - b1.alpha) + sign * dot(rate, omega);
+  row.bias = dot(row.couple, b2.alpha_WB - b1.alpha_WB) + sign * dot(rate, omega);
 }
 
 template <class Real>
@@ -119,7 +119,7 @@ inline void update_rotation_vector_row(const Row& r, const ClosureState<Real>& x
   const Mat3<Real> e = identity3<Real>();
   row.couple = x.r1 * rotation_vector_gradient(turn, column(e, r.axis));
   row.d = component(turn.phi, r.axis);
-  row.rate = dot(row.couple, b2.omega - b1.omega);
+  row.rate = dot(row.couple, b2.w_WB - b1.w_WB);
   row.bias = Real(0.0);  // never a constraint
 }
 
@@ -199,18 +199,18 @@ template <RowStorage Storage, class Real>
 inline void update_rows(const Mechanism& m, const Parameters<Real>& p, Workspace<Real>& w) {
   const auto& rows = rows_of<Storage>(m);
   auto& states = row_states_of<Storage>(w);
-  const BodyState<Real>* bodies = w.bodies.data();
-  for (const int i : indices_of(m.closures)) {
-    const ClosureStructure& c = at(m.closures, i);
+  const BodyStates<Real>& bodies = w.bodies;
+  for (const ClosureIndex i : indices_of(m.closures)) {
+    const ClosureStructure& c = m.closures[i];
     if (storage_of(c.model) != Storage) continue;
-    ClosureState<Real>& x = at(w.closures, i);
-    update_closure_pose(m, c, at(p.closures, i), bodies, x);
+    ClosureState<Real>& x = w.closures[i];
+    update_closure_pose(m, c, p.closures[i], bodies, x);
     const Vec3<Real> acceleration =
         Storage == RowStorage::cut ? gap_acceleration(m, c, bodies, x) : zero3<Real>();
-    if (c.point_rows) update_point_rows(x, acceleration, &at(states, c.row_begin));
-    for (const int r : other_rows_of(c)) {
-      update_row(at(rows, r), x, at(p.closures, i), bodies[c.first], bodies[c.second], acceleration,
-                 at(states, r));
+    if (c.point_rows) update_point_rows(x, acceleration, &states[c.row_begin]);
+    for (const RowIndex r : other_rows_of(c)) {
+      update_row(rows[r], x, p.closures[i], bodies[c.first], bodies[c.second], acceleration,
+                 states[r]);
     }
   }
 }
@@ -241,26 +241,26 @@ template <RowStorage Storage, class Real>
 inline void sum_row_forces(const Mechanism& m, Workspace<Real>& w) {
   const auto& rows = rows_of<Storage>(m);
   const auto& states = row_states_of<Storage>(w);
-  for (const int i : indices_of(m.closures)) {
-    const ClosureStructure& c = at(m.closures, i);
+  for (const ClosureIndex i : indices_of(m.closures)) {
+    const ClosureStructure& c = m.closures[i];
     if (storage_of(c.model) != Storage) continue;
-    ClosureState<Real>& x = at(w.closures, i);
+    ClosureState<Real>& x = w.closures[i];
     x.force_points = x.force_second = x.couple = zero3<Real>();
     if (c.point_rows) {
-      x.force_points = {at(states, c.row_begin).value, at(states, c.row_begin + 1).value,
-                        at(states, c.row_begin + 2).value};
+      x.force_points = {states[c.row_begin].value, states[c.row_begin + 1].value,
+                        states[c.row_begin + 2].value};
     }
-    for (const int r : other_rows_of(c)) add_row_force(at(rows, r), at(states, r), x);
+    for (const RowIndex r : other_rows_of(c)) add_row_force(rows[r], states[r], x);
   }
 }
 
 // Adds the forces of a clearance's contacts, times -1, to the wrenches that the bodies need.
 template <class Real>
 inline void subtract_contact_forces(const ClosureStructure& c, const ClosureState<Real>& x,
-                                    const BodyState<Real>* bodies, Wrench<Real>& first,
+                                    const BodyStates<Real>& bodies, Wrench<Real>& first,
                                     Wrench<Real>& second) {
   subtract_force(first, x.arm_1, x.contact_force);
-  add_force(second, x.p1 - bodies[c.second].p, x.contact_force);
+  add_force(second, x.p1 - bodies[c.second].p_WB, x.contact_force);
   first.moment = first.moment - x.contact_moment;
   second.moment = second.moment + (x.contact_moment - x.contact_surplus);
 }
@@ -269,12 +269,12 @@ inline void subtract_contact_forces(const ClosureStructure& c, const ClosureStat
 // -f on the second.
 template <class Real>
 inline void subtract_closure_forces(const ClosureStructure& c, const ClosureState<Real>& x,
-                                    const BodyState<Real>* bodies, Wrench<Real>& first,
+                                    const BodyStates<Real>& bodies, Wrench<Real>& first,
                                     Wrench<Real>& second) {
   subtract_force(first, x.arm_1, x.force_points);
   add_force(second, x.arm_2, x.force_points);
   if (!c.needs_frames && !c.has_line) return;
-  subtract_force(first, x.p2 - bodies[c.first].p, x.force_second);
+  subtract_force(first, x.p2 - bodies[c.first].p_WB, x.force_second);
   add_force(second, x.arm_2, x.force_second);
   first.moment = first.moment - x.couple;
   second.moment = second.moment + x.couple;

@@ -33,9 +33,9 @@ inline JournalInBearing<Real> journal_in_bearing(const ClearanceStructure& c,
                                                  const BodyState<Real>& first,
                                                  const BodyState<Real>& second) {
   if (c.bearing_first) {
-    return {x.r1.x, x.r2.x, x.p1, x.p2, x.v1, x.v2, first.omega, second.omega};
+    return {x.r1.x, x.r2.x, x.p1, x.p2, x.v1, x.v2, first.w_WB, second.w_WB};
   }
-  return {x.r2.x, x.r1.x, x.p2, x.p1, x.v2, x.v1, second.omega, first.omega};
+  return {x.r2.x, x.r1.x, x.p2, x.p1, x.v2, x.v1, second.w_WB, first.w_WB};
 }
 
 template <class Real>
@@ -88,12 +88,12 @@ inline ContactGeometry<Real> contact_geometry(const JournalInBearing<Real>& j,
 // f(clearance, journal in its bearing) after update_kinematics; the pose of its closure is updated.
 template <class Real, class F>
 inline void for_journals(const Mechanism& m, const Parameters<Real>& p, Workspace<Real>& w, F&& f) {
-  const BodyState<Real>* bodies = w.bodies.data();
-  for (const int c : indices_of(m.clearances)) {
-    const ClearanceStructure& clearance = at(m.clearances, c);
-    const ClosureStructure& closure = at(m.closures, clearance.closure);
-    ClosureState<Real>& x = at(w.closures, clearance.closure);
-    update_closure_pose(m, closure, at(p.closures, clearance.closure), bodies, x);
+  const BodyStates<Real>& bodies = w.bodies;
+  for (const ClearanceIndex c : indices_of(m.clearances)) {
+    const ClearanceStructure& clearance = m.clearances[c];
+    const ClosureStructure& closure = m.closures[clearance.closure];
+    ClosureState<Real>& x = w.closures[clearance.closure];
+    update_closure_pose(m, closure, p.closures[clearance.closure], bodies, x);
     f(c, journal_in_bearing(clearance, x, bodies[closure.first], bodies[closure.second]));
   }
 }

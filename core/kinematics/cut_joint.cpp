@@ -43,9 +43,9 @@ void add_turns(const FrameMotion& first, const FrameMotion& second, int turns, i
 
 // A frame fixed in a body, by the body's motion with true accelerations but for gravity.
 FrameMotion frame_motion(const ClosureFrame& pose, const BodyState<double>& body) {
-  const Vector3d arm = pose.position - to_eigen(body.p);
-  FrameMotion f{pose, to_eigen(body.v), to_eigen(body.a), to_eigen(body.omega),
-                to_eigen(body.alpha)};
+  const Vector3d arm = pose.position - to_eigen(body.p_WB);
+  FrameMotion f{pose, to_eigen(body.v_WB), to_eigen(body.a_WB), to_eigen(body.w_WB),
+                to_eigen(body.alpha_WB)};
   const Vector3d carried = f.omega.cross(arm);
   f.velocity += carried;
   f.acceleration += f.alpha.cross(arm) + f.omega.cross(carried);
@@ -56,14 +56,12 @@ FrameMotion frame_motion(const ClosureFrame& pose, const BodyState<double>& body
 
 unsigned blocked_directions(const Mechanism& m, const ClosureStructure& c) {
   unsigned blocked = 0;
-  for (int r = c.row_begin; r < c.row_end; ++r) {
-    blocked |= 1u << m.cut_rows[static_cast<std::size_t>(r)].direction;
-  }
+  for (const RowIndex r : rows_of(c)) blocked |= 1u << m.cut_rows[r].direction;
   return blocked;
 }
 
-CutJoint cut_joint_of(const Mechanism& m, int closure) {
-  const unsigned blocked = blocked_directions(m, m.closures[static_cast<std::size_t>(closure)]);
+CutJoint cut_joint_of(const Mechanism& m, ClosureIndex closure) {
+  const unsigned blocked = blocked_directions(m, m.closures[closure]);
   CutJoint joint;
   for (int d = 0; d < kDirections; ++d) {
     if (blocked >> d & 1u) continue;
@@ -151,18 +149,17 @@ std::vector<CutJointMotion> cut_joint_motions(const Mechanism& m, const Paramete
   Workspace<double> w = make_workspace<double>(m);
   update_kinematics(m, p, q, v, w);
   std::copy(qdd, qdd + m.nv, w.qdd.begin());
-  std::vector<BodyState<double>> moving;
+  BodyStates<double> moving;
   update_body_accelerations(m, p, w, moving);
   std::vector<CutJointMotion> motions;
-  for (std::size_t i = 0; i < m.closures.size(); ++i) {
+  for (const ClosureIndex i : indices_of(m.closures)) {
     ClosureStructure c = m.closures[i];
     c.needs_frames = true;
     ClosureState<double> x{};
-    update_closure_pose(m, c, p.closures[i], w.bodies.data(), x);
-    const auto body = [&](int b) { return moving[static_cast<std::size_t>(b)]; };
-    motions.push_back(cut_joint_motion(cut_joint_of(m, static_cast<int>(i)),
-                                       frame_motion(first_frame(x), body(c.first)),
-                                       frame_motion(second_frame(x), body(c.second))));
+    update_closure_pose(m, c, p.closures[i], w.bodies, x);
+    motions.push_back(cut_joint_motion(cut_joint_of(m, i),
+                                       frame_motion(first_frame(x), moving[c.first]),
+                                       frame_motion(second_frame(x), moving[c.second])));
   }
   return motions;
 }

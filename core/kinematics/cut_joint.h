@@ -26,7 +26,7 @@ struct CutJoint {
 unsigned blocked_directions(const Mechanism& m, const ClosureStructure& c);
 
 // Of a closure that counts as the exact joint of its type.
-CutJoint cut_joint_of(const Mechanism& m, int closure);
+CutJoint cut_joint_of(const Mechanism& m, ClosureIndex closure);
 
 // Pose of {1,e} or {2,e} in ground axes.
 struct ClosureFrame {

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/kinematics/three_turns.h"
+#include "core/model/walk.h"
 
 namespace linkstudy {
 namespace {
@@ -59,8 +60,9 @@ class JacobianRate {
     VectorXd x = VectorXd::Zero(u.size());
     for (const Stage& stage : closed_.mechanism.stages) {
       if (stage.motion != BasicMotion::ball) continue;
-      const Eigen::Vector3d a = v_.segment<3>(stage.v), b = u.segment<3>(stage.v);
-      x.segment<3>(stage.v) = a.cross(b);
+      const int v = stage.v.value();
+      const Eigen::Vector3d a = v_.segment<3>(v), b = u.segment<3>(v);
+      x.segment<3>(v) = a.cross(b);
     }
     return x;
   }
@@ -80,14 +82,14 @@ std::string numbered(const std::string& name, int index, int count) {
 
 std::vector<Drive> list_drives(const Mechanism& m) {
   std::vector<Drive> drives;
-  for (int b = 1; b < m.body_count(); ++b) {
-    const Body& body = m.bodies[static_cast<std::size_t>(b)];
-    for (int i = body.stage_begin; i < body.stage_end; ++i) {
-      const Stage& stage = m.stages[static_cast<std::size_t>(i)];
+  for (const BodyIndex b : bodies_outwards(m)) {
+    const Body& body = m.bodies[b];
+    for (const StageIndex i : stages_of(body)) {
+      const Stage& stage = m.stages[i];
       if (stage.motion == BasicMotion::ball) continue;
-      const std::string& joint = m.joint_names[static_cast<std::size_t>(b)];
+      const std::string& joint = m.joint_names[b];
       const int coordinate = stage.v - body.v_begin;
-      const auto kind = m.velocities[static_cast<std::size_t>(stage.v)].kind;
+      const auto kind = m.velocities[stage.v].kind;
       drives.push_back({numbered("joint." + joint, coordinate, body.v_count), joint, coordinate,
                         stage.q, stage.v, kind != VelocityKind::translation});
     }
@@ -98,7 +100,7 @@ std::vector<Drive> list_drives(const Mechanism& m) {
 DrivenLinkage::DrivenLinkage(const Model& closed, const State<double>& pose,
                              const MobilityReport& mobility, std::vector<Drive> drives)
     : closed_(&closed), scale_(find_closure_scale(closed, pose)), drives_(std::move(drives)) {
-  for (const Drive& drive : drives_) driven_.push_back(drive.velocity);
+  for (const Drive& drive : drives_) driven_.push_back(drive.velocity.value());
   std::vector<const State<double>*> poses = {&pose};
   for (const State<double>& s : mobility.neighbours) poses.push_back(&s);
   choose_dependent(true);
@@ -112,13 +114,13 @@ DrivenLinkage::DrivenLinkage(const Model& closed, const State<double>& pose,
 }
 
 void DrivenLinkage::choose_dependent(bool keep_holds) {
-  const auto has = [](const std::vector<int>& list, int k) {
+  const auto has = [](const auto& list, auto k) {
     return std::find(list.begin(), list.end(), k) != list.end();
   };
   dependent_.clear();
-  for (int k = 0; k < closed_->mechanism.nv; ++k) {
+  for (const VelocityIndex k : velocities(closed_->mechanism)) {
     const bool rests = keep_holds && has(closed_->held, k);
-    if (!has(driven_, k) && !rests) dependent_.push_back(k);
+    if (!has(driven_, k.value()) && !rests) dependent_.push_back(k.value());
   }
 }
 
@@ -173,7 +175,7 @@ DriveRanks DrivenLinkage::ranks(const State<double>& s, double tolerance) const 
 VectorXd DrivenLinkage::drive_position(const State<double>& s) const {
   VectorXd position(static_cast<Eigen::Index>(drives_.size()));
   for (std::size_t i = 0; i < drives_.size(); ++i) {
-    position[static_cast<Eigen::Index>(i)] = s.q[static_cast<std::size_t>(drives_[i].position)];
+    position[static_cast<Eigen::Index>(i)] = s.q[drives_[i].position];
   }
   return position;
 }
@@ -194,8 +196,7 @@ State<double> DrivenLinkage::moved(const State<double>& s, const VectorXd& dy,
                                    const VectorXd& drive_position) const {
   State<double> next = displaced(closed_->mechanism, s, scale_.velocity.cwiseProduct(dy));
   for (std::size_t i = 0; i < drives_.size(); ++i) {
-    next.q[static_cast<std::size_t>(drives_[i].position)] =
-        drive_position[static_cast<Eigen::Index>(i)];
+    next.q[drives_[i].position] = drive_position[static_cast<Eigen::Index>(i)];
   }
   return next;
 }
@@ -229,7 +230,9 @@ DrivenRates DrivenLinkage::rates(const State<double>& given, const VectorXd& rat
   r.quality = svd.values[rank_ - 1] / size_;
   r.is_singular = r.quality < kSingularQuality;
   r.first += scatter_entries(solve_within(svd, rank_, -j * r.first), dependent_, nv);
-  for (int k = 0; k < nv; ++k) s.v[static_cast<std::size_t>(k)] = scale_.velocity[k] * r.first[k];
+  for (const VelocityIndex k : indices_of(s.v)) {
+    s.v[k] = scale_.velocity[k.value()] * r.first[k.value()];
+  }
   const VectorXd bias = compute_scaled_closures(*closed_, scale_, s).bias;
   r.second += scatter_entries(solve_within(svd, rank_, -bias - j * r.second), dependent_, nv);
   if (undetermined() > 0) r.second += turning_of_least_norm(s, j, svd, r.first);
@@ -288,8 +291,7 @@ std::vector<std::string> DrivenLinkage::loose_joints(const State<double>& s) con
   const double most = moves.maxCoeff();
   for (std::size_t i = 0; i < dependent_.size(); ++i) {
     if (moves[static_cast<Eigen::Index>(i)] < kShare * most) continue;
-    const auto body =
-        static_cast<std::size_t>(m.velocities[static_cast<std::size_t>(dependent_[i])].body);
+    const BodyIndex body = m.velocities[VelocityIndex(dependent_[i])].body;
     const std::string name = "joint." + m.joint_names[body];
     if (names.empty() || names.back() != name) names.push_back(name);
   }

@@ -27,8 +27,8 @@ struct Drive {
   std::string name;  // "joint.NAME", with .0 .1 .. where the joint has several coordinates
   std::string joint;
   int coordinate = 0;  // within the joint
-  int position = 0;    // index in q
-  int velocity = 0;    // index in v
+  PositionIndex position;
+  VelocityIndex velocity;
   bool turns = true;
 };
 std::vector<Drive> list_drives(const Mechanism& m);
@@ -71,7 +71,7 @@ class DrivenLinkage {
   int undetermined() const { return static_cast<int>(dependent_.size()) - rank_; }
   // The drives cannot move by themselves: they are more than the linkage has freedoms, or fixed.
   bool is_overdriven() const { return is_overdriven_; }
-  // Velocity indices of y, rising.
+  // Numbers of the velocities that are y, rising.
   const std::vector<int>& dependent() const { return dependent_; }
 
   // Positions of the drives, rad or m, and the same without dimensions.
@@ -120,7 +120,7 @@ class DrivenLinkage {
   const Model* closed_;
   ClosureScale scale_;
   std::vector<Drive> drives_;
-  std::vector<int> driven_;  // velocity indices
+  std::vector<int> driven_;  // numbers of velocities
   std::vector<int> dependent_;
   std::vector<int> branch_rows_;  // none: M is not square
   int rank_ = 0;

@@ -59,25 +59,25 @@ template <class Real>
 inline Moving<Real> start_at_joint_frame(const Body& body, const BodyParameters<Real>& n,
                                          const BodyState<Real>& parent, const Body& parent_body,
                                          BodyState<Real>& s) {
-  s.v = parent.v;
-  s.a = parent.a;
-  if (body.parent == 0) {
-    s.r = n.frame;
-    s.p = n.origin;
+  s.v_WB = parent.v_WB;
+  s.a_WB = parent.a_WB;
+  if (body.parent == kGroundBody) {
+    s.R_WB = n.R_PJ;
+    s.p_WB = n.p_PJ;
     return {s, false, false};
   }
-  turn_frame(body, parent.r, n.frame, s.r);
-  s.p = parent.p;
-  if (parent_body.rotates) s.omega = parent.omega;
-  if (parent_body.gyrates) s.alpha = parent.alpha;
+  turn_frame(body, parent.R_WB, n.R_PJ, s.R_WB);
+  s.p_WB = parent.p_WB;
+  if (parent_body.rotates) s.w_WB = parent.w_WB;
+  if (parent_body.gyrates) s.alpha_WB = parent.alpha_WB;
   if (body.offset != VectorShape::zero) {
-    const Vec3<Real> r = rotate(parent.r, n.origin, body.offset);
-    s.p = s.p + r;
+    const Vec3<Real> r = rotate(parent.R_WB, n.p_PJ, body.offset);
+    s.p_WB = s.p_WB + r;
     if (parent_body.rotates) {
-      const Vec3<Real> carried = cross(s.omega, r);
-      s.v = s.v + carried;
-      s.a = s.a + cross(s.omega, carried);
-      if (parent_body.gyrates) s.a = s.a + cross(s.alpha, r);
+      const Vec3<Real> carried = cross(s.w_WB, r);
+      s.v_WB = s.v_WB + carried;
+      s.a_WB = s.a_WB + cross(s.w_WB, carried);
+      if (parent_body.gyrates) s.a_WB = s.a_WB + cross(s.alpha_WB, r);
     }
   }
   return {s, parent_body.rotates, parent_body.gyrates};
@@ -103,55 +103,55 @@ inline Sym3<Real> world_inertia(InertiaShape shape, const Sym3<Real>& i, const M
 template <class Real>
 inline void set_ground(const Parameters<Real>& p, BodyState<Real>& ground) {
   const Vec3<Real> zero = zero3<Real>();
-  ground.r = identity3<Real>();
-  ground.p = ground.shift = ground.omega = ground.v = ground.alpha = zero;
-  ground.a = Real(-1.0) * p.gravity;
+  ground.R_WB = identity3<Real>();
+  ground.p_WB = ground.p_PB_W = ground.w_WB = ground.v_WB = ground.alpha_WB = zero;
+  ground.a_WB = Real(-1.0) * p.gravity;
 }
 
 // Rows of couplings; accelerations that are known are part of the bias.
 template <class Real>
-inline void update_coupling_rows(const Mechanism& m, const Parameters<Real>& p, const Real* q,
-                                 const Real* v, Workspace<Real>& w) {
-  for (const int i : indices_of(m.couplings)) {
-    const CouplingStructure& c = at(m.couplings, i);
-    RowState<Real>& row = at(w.cut_rows, c.row);
-    row.d = Real(0.0) - at(p.coupling_offsets, i);
+inline void update_coupling_rows(const Mechanism& m, const Parameters<Real>& p,
+                                 Positions<const Real> q, Velocities<const Real> v,
+                                 Workspace<Real>& w) {
+  for (const CouplingIndex i : indices_of(m.couplings)) {
+    const CouplingStructure& c = m.couplings[i];
+    RowState<Real>& row = w.cut_rows[c.row];
+    row.d = Real(0.0) - p.coupling_offsets[i];
     row.rate = row.bias = Real(0.0);
-    for (const int n : terms_of(c)) {
-      const CouplingTermStructure& term = at(m.coupling_terms, n);
-      const Real& factor = at(p.coupling_factors, n);
+    for (const TermIndex n : terms_of(c)) {
+      const CouplingTermStructure& term = m.coupling_terms[n];
+      const Real& factor = p.coupling_factors[n];
       row.d = madd(factor, q[term.q], row.d);
       row.rate = madd(factor, v[term.v], row.rate);
-      const int motion = at(m.velocities, term.v).motion;
-      if (motion >= 0) row.bias = madd(factor, at(w.motions, motion).a, row.bias);
+      const MotionIndex motion = m.velocities[term.v].motion;
+      if (motion.exists()) row.bias = madd(factor, w.motions[motion].a, row.bias);
     }
   }
 }
 
 template <class Real>
-inline void update_kinematics(const Mechanism& m, const Parameters<Real>& p, const Real* q,
-                              const Real* v, Workspace<Real>& w) {
-  set_ground(p, at(w.bodies, 0));
-  for (const int b : bodies_outwards(m)) {
-    const Body& body = at(m.bodies, b);
-    const BodyParameters<Real>& n = at(p.bodies, b);
-    const int parent_index = body.parent;
-    const BodyState<Real>& parent = at(w.bodies, parent_index);
-    BodyState<Real>& s = at(w.bodies, b);
-    Moving<Real> x = start_at_joint_frame(body, n, parent, at(m.bodies, parent_index), s);
-    for (const int i : stages_of(body)) {
-      const Stage& stage = at(m.stages, i);
-      pass_stage(stage, at(p.pitch, i), q + stage.q, v + stage.v, x, &at(w.axes, stage.v));
-      const Velocity& velocity = at(m.velocities, stage.v);
-      if (velocity.motion >= 0) {
-        accelerate(velocity.kind, at(p.pitch, i), at(w.motions, velocity.motion).a,
-                   at(w.axes, stage.v), x);
+inline void update_kinematics(const Mechanism& m, const Parameters<Real>& p,
+                              Positions<const Real> q, Velocities<const Real> v,
+                              Workspace<Real>& w) {
+  set_ground(p, w.bodies[kGroundBody]);
+  for (const BodyIndex b : bodies_outwards(m)) {
+    const Body& body = m.bodies[b];
+    const BodyParameters<Real>& n = p.bodies[b];
+    const BodyState<Real>& parent = w.bodies[body.parent];
+    BodyState<Real>& s = w.bodies[b];
+    Moving<Real> x = start_at_joint_frame(body, n, parent, m.bodies[body.parent], s);
+    for (const StageIndex i : stages_of(body)) {
+      const Stage& stage = m.stages[i];
+      pass_stage(stage, p.pitch[i], &q[stage.q], &v[stage.v], x, &w.axes[stage.v]);
+      const Velocity& velocity = m.velocities[stage.v];
+      if (velocity.motion.exists()) {
+        accelerate(velocity.kind, p.pitch[i], w.motions[velocity.motion].a, w.axes[stage.v], x);
       }
     }
-    if (body.shifted) s.shift = s.p - parent.p;
+    if (body.shifted) s.p_PB_W = s.p_WB - parent.p_WB;
     s.inertia.m = n.mass;
-    s.inertia.h = rotate(s.r, n.moment, body.center);
-    if (body.rotates) s.inertia.i = world_inertia(body.inertia, n.inertia, s.r);
+    s.inertia.h = rotate(s.R_WB, n.moment, body.center);
+    if (body.rotates) s.inertia.i = world_inertia(body.inertia, n.inertia, s.R_WB);
   }
   update_coupling_rows(m, p, q, v, w);
 }

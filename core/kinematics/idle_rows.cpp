@@ -39,8 +39,8 @@ std::vector<bool> vanishing_rows(const Model& model, const std::vector<double>& 
   const Eigen::MatrixXd j = row_jacobian(m, model.parameters, w, m.cut_rows, w.cut_rows);
   const double limit = kRounding * std::max(1.0, farthest_of(w));
   std::vector<bool> vanishing;
-  for (std::size_t r = 0; r < m.cut_rows.size(); ++r) {
-    const auto rates = j.row(static_cast<Eigen::Index>(r)).lpNorm<Eigen::Infinity>();
+  for (const RowIndex r : indices_of(m.cut_rows)) {
+    const auto rates = j.row(r.value()).lpNorm<Eigen::Infinity>();
     vanishing.push_back(std::abs(w.cut_rows[r].d) <= limit && rates <= limit);
   }
   return vanishing;
@@ -61,10 +61,10 @@ std::vector<unsigned> find_idle_directions(const Linkage& linkage) {
     const std::vector<bool> here = vanishing_rows(model, q, w);
     for (std::size_t r = 0; r < always.size(); ++r) always[r] = always[r] && here[r];
   }
-  for (std::size_t r = 0; r < always.size(); ++r) {
+  for (const RowIndex r : indices_of(m.cut_rows)) {
     const Row& row = m.cut_rows[r];
-    if (always[r] && !is_of_coupling(row.kind))
-      idle[static_cast<std::size_t>(row.closure)] |= 1u << row.direction;
+    if (always[static_cast<std::size_t>(r.value())] && !is_of_coupling(row.kind))
+      idle[static_cast<std::size_t>(row.closure.value())] |= 1u << row.direction;
   }
   return idle;
 }

@@ -16,14 +16,14 @@
 
 namespace linkstudy {
 
-// A body on its way through the stages of its joint: r, p, omega, v, alpha and a of `s` are those
-// of the frame reached so far. Entries of omega and alpha that cannot differ from zero are never
-// written (a new workspace has zeros there).
+// A body on its way through the stages of its joint: R_WB, p_WB, w_WB, v_WB, alpha_WB and a_WB of
+// `s` are those of the frame reached so far. Entries of w_WB and alpha_WB that cannot differ from
+// zero are never written (a new workspace has zeros there).
 template <class Real>
 struct Moving {
   BodyState<Real>& s;
-  bool rotates;  // omega may differ from zero so far
-  bool gyrates;  // alpha may
+  bool rotates;  // w_WB may differ from zero so far
+  bool gyrates;  // alpha_WB may
 };
 
 // a c + b s and b c - a s: two axes turned about the third.
@@ -39,26 +39,26 @@ inline void turn(Vec3<Real>& a, Vec3<Real>& b, Real angle) {
 template <class Real>
 inline void spin(Moving<Real>& x, const Vec3<Real>& relative) {
   if (!x.rotates) {
-    x.s.omega = relative;
+    x.s.w_WB = relative;
     x.rotates = true;
     return;
   }
-  const Vec3<Real> turning = cross(x.s.omega, relative);
-  x.s.alpha = x.gyrates ? x.s.alpha + turning : turning;
+  const Vec3<Real> turning = cross(x.s.w_WB, relative);
+  x.s.alpha_WB = x.gyrates ? x.s.alpha_WB + turning : turning;
   x.gyrates = true;
-  x.s.omega = x.s.omega + relative;
+  x.s.w_WB = x.s.w_WB + relative;
 }
 
 // Moves the origin by a vector r of the frame so far that grows at `rate`.
 template <class Real>
 inline void shift(Moving<Real>& x, const Vec3<Real>& r, const Vec3<Real>& rate) {
-  x.s.p = x.s.p + r;
-  x.s.v = x.s.v + rate;
+  x.s.p_WB = x.s.p_WB + r;
+  x.s.v_WB = x.s.v_WB + rate;
   if (!x.rotates) return;
-  const Vec3<Real> carried = cross(x.s.omega, r);
-  x.s.v = x.s.v + carried;
-  x.s.a = x.s.a + cross(x.s.omega, madd(Real(2.0), rate, carried));
-  if (x.gyrates) x.s.a = x.s.a + cross(x.s.alpha, r);
+  const Vec3<Real> carried = cross(x.s.w_WB, r);
+  x.s.v_WB = x.s.v_WB + carried;
+  x.s.a_WB = x.s.a_WB + cross(x.s.w_WB, madd(Real(2.0), rate, carried));
+  if (x.gyrates) x.s.a_WB = x.s.a_WB + cross(x.s.alpha_WB, r);
 }
 
 template <class Real>
@@ -84,37 +84,37 @@ inline void pass_stage(const Stage& stage, Real pitch, const Real* q, const Real
                        Moving<Real>& x, Vec3<Real>* axis) {
   switch (stage.motion) {
     case BasicMotion::rz:
-      *axis = x.s.r.z;
-      spin(x, *v * x.s.r.z);
-      turn(x.s.r.x, x.s.r.y, *q);
+      *axis = x.s.R_WB.z;
+      spin(x, *v * x.s.R_WB.z);
+      turn(x.s.R_WB.x, x.s.R_WB.y, *q);
       return;
     case BasicMotion::tz:
-      return pass_translation(x, x.s.r.z, *q, *v, *axis);
+      return pass_translation(x, x.s.R_WB.z, *q, *v, *axis);
     case BasicMotion::ry:
-      *axis = x.s.r.y;
-      spin(x, *v * x.s.r.y);
-      turn(x.s.r.z, x.s.r.x, *q);
+      *axis = x.s.R_WB.y;
+      spin(x, *v * x.s.R_WB.y);
+      turn(x.s.R_WB.z, x.s.R_WB.x, *q);
       return;
     case BasicMotion::rx:
-      *axis = x.s.r.x;
-      spin(x, *v * x.s.r.x);
-      turn(x.s.r.y, x.s.r.z, *q);
+      *axis = x.s.R_WB.x;
+      spin(x, *v * x.s.R_WB.x);
+      turn(x.s.R_WB.y, x.s.R_WB.z, *q);
       return;
     case BasicMotion::tx:
-      return pass_translation(x, x.s.r.x, *q, *v, *axis);
+      return pass_translation(x, x.s.R_WB.x, *q, *v, *axis);
     case BasicMotion::ty:
-      return pass_translation(x, x.s.r.y, *q, *v, *axis);
+      return pass_translation(x, x.s.R_WB.y, *q, *v, *axis);
     case BasicMotion::screw:
-      pass_translation(x, x.s.r.z, pitch * *q, pitch * *v, *axis);
-      spin(x, *v * x.s.r.z);
-      turn(x.s.r.x, x.s.r.y, *q);
+      pass_translation(x, x.s.R_WB.z, pitch * *q, pitch * *v, *axis);
+      spin(x, *v * x.s.R_WB.z);
+      turn(x.s.R_WB.x, x.s.R_WB.y, *q);
       return;
     case BasicMotion::ball:
-      x.s.r = x.s.r * rotation_of(q);
-      axis[0] = x.s.r.x;
-      axis[1] = x.s.r.y;
-      axis[2] = x.s.r.z;
-      spin(x, madd(v[0], x.s.r.x, madd(v[1], x.s.r.y, v[2] * x.s.r.z)));
+      x.s.R_WB = x.s.R_WB * rotation_of(q);
+      axis[0] = x.s.R_WB.x;
+      axis[1] = x.s.R_WB.y;
+      axis[2] = x.s.R_WB.z;
+      spin(x, madd(v[0], x.s.R_WB.x, madd(v[1], x.s.R_WB.y, v[2] * x.s.R_WB.z)));
       return;
   }
 }
@@ -125,10 +125,10 @@ inline void accelerate(VelocityKind kind, Real pitch, Real qdd, const Vec3<Real>
                        Moving<Real>& x) {
   const Vec3<Real> added = qdd * axis;
   if (kind != VelocityKind::rotation) {
-    x.s.a = x.s.a + (kind == VelocityKind::screw ? pitch * added : added);
+    x.s.a_WB = x.s.a_WB + (kind == VelocityKind::screw ? pitch * added : added);
   }
   if (kind == VelocityKind::translation) return;
-  x.s.alpha = x.gyrates ? x.s.alpha + added : added;
+  x.s.alpha_WB = x.gyrates ? x.s.alpha_WB + added : added;
   x.gyrates = true;
 }
 
@@ -148,8 +148,8 @@ inline void position_rates(const Stage& stage, const Real* q, const Real* v, Rea
 
 template <class Real>
 inline void normalize_quaternions(const Mechanism& m, Real* q) {
-  for (int i : m.ball_q) {
-    Real* h = q + i;
+  for (const PositionIndex i : m.ball_q) {
+    Real* h = q + i.value();
     const Real square = madd(h[0], h[0], madd(h[1], h[1], madd(h[2], h[2], h[3] * h[3])));
     const Real inverse = Real(1.0) / sqrt(square);
     for (int j = 0; j < 4; ++j) h[j] = h[j] * inverse;
@@ -158,15 +158,16 @@ inline void normalize_quaternions(const Mechanism& m, Real* q) {
 
 // q := q + the displacement dq in velocity coordinates; quaternions are normalised.
 template <class Real>
-inline void displace(const Mechanism& m, const Real* dq, Real* q) {
+inline void displace(const Mechanism& m, Velocities<const Real> dq, Real* q) {
   for (const Stage& s : m.stages) {
+    Real* own = q + s.q.value();
     if (s.motion != BasicMotion::ball) {
-      q[s.q] = q[s.q] + dq[s.v];
+      *own = *own + dq[s.v];
       continue;
     }
     Real rate[4];
-    position_rates(s, q + s.q, dq + s.v, rate);
-    for (int i = 0; i < 4; ++i) q[s.q + i] = q[s.q + i] + rate[i];
+    position_rates(s, own, &dq[s.v], rate);
+    for (int i = 0; i < 4; ++i) own[i] = own[i] + rate[i];
   }
   normalize_quaternions(m, q);
 }

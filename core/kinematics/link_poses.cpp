@@ -16,7 +16,7 @@ ShortenedDualQuaternion body_in_link(const Linkage& linkage, const std::string& 
 }
 
 ShortenedDualQuaternion pose_of(const BodyState<double>& body) {
-  return {euler_parameters(to_eigen(body.r)), to_eigen(body.p)};
+  return {euler_parameters(to_eigen(body.R_WB)), to_eigen(body.p_WB)};
 }
 
 }  // namespace
@@ -27,7 +27,7 @@ std::vector<ShortenedDualQuaternion> link_poses(const Linkage& linkage, const Mo
   Workspace<double> w = make_workspace<double>(m);
   update_kinematics(m, model.parameters, s.q.data(), s.v.data(), w);
   std::vector<ShortenedDualQuaternion> poses(1);
-  for (std::size_t b = 1; b < m.bodies.size(); ++b) {
+  for (const BodyIndex b : bodies_outwards(m)) {
     poses.push_back(
         compose(pose_of(w.bodies[b]), inverse(body_in_link(linkage, m.joint_names[b]))));
   }

@@ -71,15 +71,14 @@ LoopEquations::Frames LoopEquations::frames(const State<double>& s,
   const Mechanism& m = closed_.mechanism;
   Frames f{make_workspace<double>(m), {}, {}, {}, {}};
   update_kinematics(m, closed_.parameters, s.q.data(), s.v.data(), f.w);
-  ClosureStructure c = m.closures[static_cast<std::size_t>(loop_.closure)];
+  ClosureStructure c = m.closures[loop_.closure];
   c.needs_frames = true;
   ClosureState<double> x{};
-  update_closure_pose(m, c, closed_.parameters.closures[static_cast<std::size_t>(loop_.closure)],
-                      f.w.bodies.data(), x);
+  update_closure_pose(m, c, closed_.parameters.closures[loop_.closure], f.w.bodies, x);
   f.first = first_frame(x);
   f.second = second_frame(x);
   f.reached = cut_position ? moved_by(joint_, *cut_position, f.first) : f.second;
-  f.common = to_eigen(f.w.bodies[static_cast<std::size_t>(loop_.common)].r);
+  f.common = to_eigen(f.w.bodies[loop_.common].R_WB);
   return f;
 }
 
@@ -100,13 +99,15 @@ MatrixXd LoopEquations::jacobian(const State<double>& s, const VectorXd& cut_pos
   const auto rates = [&](const ClosureFrame& frame, const Twist& twist) {
     return element_rates(f.common, frame.rotation, twist, scale_.extent);
   };
-  for (const int k : loop_.first) {
-    j.col(k) = scale_.velocity[k] * rates(f.reached, twist_of(closed_.mechanism, closed_.parameters,
-                                                              f.w, k, f.reached.position));
+  for (const VelocityIndex k : loop_.first) {
+    j.col(k.value()) = scale_.velocity[k.value()] *
+                       rates(f.reached, twist_of(closed_.mechanism, closed_.parameters, f.w, k,
+                                                 f.reached.position));
   }
-  for (const int k : loop_.second) {
-    j.col(k) = -scale_.velocity[k] * rates(f.second, twist_of(closed_.mechanism, closed_.parameters,
-                                                              f.w, k, f.second.position));
+  for (const VelocityIndex k : loop_.second) {
+    j.col(k.value()) =
+        -scale_.velocity[k.value()] *
+        rates(f.second, twist_of(closed_.mechanism, closed_.parameters, f.w, k, f.second.position));
   }
   const MatrixXd cut = cut_joint_twists(joint_, f.first, f.reached);
   for (int i = 0; i < joint_.velocity_count(); ++i) {

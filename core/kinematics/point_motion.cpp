@@ -14,8 +14,8 @@ std::vector<PointMotion> point_motions(const Mechanism& m, const Parameters<doub
   decltype(w.bodies) moving;
   update_body_accelerations(m, p, w, moving);
   std::vector<PointMotion> motions;
-  for (std::size_t i = 0; i < m.point_bodies.size(); ++i) {
-    const BodyState<double>& body = at(moving, m.point_bodies[i]);
+  for (const PointIndex i : indices_of(m.point_bodies)) {
+    const BodyState<double>& body = moving[m.point_bodies[i]];
     const Vec3<double>& point = p.points[i];
     motions.push_back({point_position(body, point), point_velocity(body, point),
                        point_acceleration(body, p.gravity, point)});

@@ -13,21 +13,21 @@ namespace linkstudy {
 // Of a point given in the body's internal frame.
 template <class Real>
 inline Vec3<Real> point_position(const BodyState<Real>& b, const Vec3<Real>& point) {
-  return b.p + b.r * point;
+  return b.p_WB + b.R_WB * point;
 }
 
 template <class Real>
 inline Vec3<Real> point_velocity(const BodyState<Real>& b, const Vec3<Real>& point) {
-  return b.v + cross(b.omega, b.r * point);
+  return b.v_WB + cross(b.w_WB, b.R_WB * point);
 }
 
 // `moving` comes from update_body_accelerations.
 template <class Real>
 inline Vec3<Real> point_acceleration(const BodyState<Real>& moving, const Vec3<Real>& gravity,
                                      const Vec3<Real>& point) {
-  const Vec3<Real> r = moving.r * point;
-  const Vec3<Real> turning = cross(moving.alpha, r) + cross(moving.omega, cross(moving.omega, r));
-  return moving.a + gravity + turning;
+  const Vec3<Real> r = moving.R_WB * point;
+  const Vec3<Real> turning = cross(moving.alpha_WB, r) + cross(moving.w_WB, cross(moving.w_WB, r));
+  return moving.a_WB + gravity + turning;
 }
 
 struct PointMotion {

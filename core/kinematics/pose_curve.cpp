@@ -45,7 +45,8 @@ MatrixXd PoseCurve::jacobian(const State<double>& s) const {
   MatrixXd wide(j.rows(), count() + 1);
   VectorXd driven = VectorXd::Zero(j.rows());
   for (std::size_t i = 0; i < linkage_.drives().size(); ++i) {
-    driven += direction_[static_cast<Eigen::Index>(i)] * j.col(linkage_.drives()[i].velocity);
+    driven +=
+        direction_[static_cast<Eigen::Index>(i)] * j.col(linkage_.drives()[i].velocity.value());
   }
   wide << take_columns(j, linkage_.dependent()), driven;
   return wide;
@@ -57,7 +58,7 @@ State<double> PoseCurve::moved(const State<double>& s, const VectorXd& way) cons
   VectorXd drives = linkage_.drive_position(s);
   for (std::size_t i = 0; i < linkage_.drives().size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
-    const double unit = linkage_.scale().velocity[linkage_.drives()[i].velocity];
+    const double unit = linkage_.scale().velocity[linkage_.drives()[i].velocity.value()];
     drives[k] += unit * direction_[k] * way[count()];
   }
   return linkage_.moved(s, dy, drives);

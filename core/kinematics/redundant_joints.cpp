@@ -15,27 +15,27 @@ int rank_of(const MatrixXd& a) {
 // Rates of all rows by three turns of a body about ground axes through its origin and three shifts,
 // the bodies that it carries with it; without dimensions.
 MatrixXd twist_columns(const Model& closed, const ClosureScale& scale, const Workspace<double>& w,
-                       int body) {
+                       BodyIndex body) {
   const Mechanism& m = closed.mechanism;
   const Vec3<double> axes[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  const Vec3<double>& origin = w.bodies[static_cast<std::size_t>(body)].p;
+  const Vec3<double>& origin = w.bodies[body].p_WB;
   MatrixXd t = MatrixXd::Zero(m.cut_row_count(), 6);
-  for (int r = 0; r < m.cut_row_count(); ++r) {
-    const Row& row = m.cut_rows[static_cast<std::size_t>(r)];
+  for (const RowIndex r : indices_of(m.cut_rows)) {
+    const Row& row = m.cut_rows[r];
     if (is_of_coupling(row.kind)) continue;  // a loose joint would have coordinates of its own
-    const RowState<double>& state = w.cut_rows[static_cast<std::size_t>(r)];
-    const ClosureStructure& c = m.closures[static_cast<std::size_t>(row.closure)];
-    const ClosureState<double>& x = w.closures[static_cast<std::size_t>(row.closure)];
+    const RowState<double>& state = w.cut_rows[r];
+    const ClosureStructure& c = m.closures[row.closure];
+    const ClosureState<double>& x = w.closures[row.closure];
     const Vec3<double>& point_1 = acts_at_both_points(row.kind) ? x.p1 : x.p2;
     for (int k = 0; k < 6; ++k) {
       const bool turns = k < 3;
-      const Velocity v{body, turns ? VelocityKind::rotation : VelocityKind::translation, 0};
+      const Velocity v{body, turns ? VelocityKind::rotation : VelocityKind::translation, {}};
       const auto rate = [&](const Vec3<double>& point) {
         return row_rate<double>(v, nullptr, axes[k % 3], origin, point, state);
       };
       const double first = carries(m, body, c.first) ? rate(point_1) : 0.0;
       const double second = carries(m, body, c.second) ? rate(x.p2) : 0.0;
-      t(r, k) = scale.row[r] * (second - first) * (turns ? 1.0 : scale.extent);
+      t(r.value(), k) = scale.row[r.value()] * (second - first) * (turns ? 1.0 : scale.extent);
     }
   }
   return t;
@@ -47,10 +47,10 @@ int count_in_tree_joint(const MatrixXd& j, const MatrixXd& twists) {
   return rank_of(wide) - rank_of(j);
 }
 
-int count_in_rows(const MatrixXd& j, int begin, int end) {
+int count_in_rows(const MatrixXd& j, RowIndex begin, RowIndex end) {
   const int rows = end - begin;
   MatrixXd rest(j.rows() - rows, j.cols());
-  rest << j.topRows(begin), j.bottomRows(j.rows() - end);
+  rest << j.topRows(begin.value()), j.bottomRows(j.rows() - end.value());
   return rows - (rank_of(j) - rank_of(rest));
 }
 
@@ -67,15 +67,14 @@ std::vector<CarriedRedundancy> find_redundant_joints(const Model& closed, const 
   const auto add = [&](const std::string& name, int count) {
     if (count > 0) found.push_back({name, count});
   };
-  for (int b = 1; b < m.body_count(); ++b) {
-    add("joint." + m.joint_names[static_cast<std::size_t>(b)],
-        count_in_tree_joint(j, twist_columns(closed, scale, w, b)));
+  for (const BodyIndex b : bodies_outwards(m)) {
+    add("joint." + m.joint_names[b], count_in_tree_joint(j, twist_columns(closed, scale, w, b)));
   }
-  for (std::size_t i = 0; i < m.closures.size(); ++i) {
+  for (const ClosureIndex i : indices_of(m.closures)) {
     add("closure." + m.closure_names[i],
         count_in_rows(j, m.closures[i].row_begin, m.closures[i].row_end));
   }
-  for (std::size_t i = 0; i < m.couplings.size(); ++i) {
+  for (const CouplingIndex i : indices_of(m.couplings)) {
     add("coupling." + m.coupling_names[i],
         count_in_rows(j, m.couplings[i].row, m.couplings[i].row + 1));
   }

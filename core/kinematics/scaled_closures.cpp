@@ -13,8 +13,8 @@ using Eigen::VectorXd;
 double find_extent(const Model& model, const Workspace<double>& w) {
   const Mechanism& m = model.mechanism;
   Eigen::AlignedBox3d box;
-  for (std::size_t b = 1; b < m.bodies.size(); ++b) {
-    const Eigen::Vector3d origin = to_eigen(w.bodies[b].p);
+  for (const BodyIndex b : bodies_outwards(m)) {
+    const Eigen::Vector3d origin = to_eigen(w.bodies[b].p_WB);
     box.extend(origin);
     box.extend(origin + to_eigen(w.bodies[b].inertia.h) / model.parameters.bodies[b].mass);
   }
@@ -39,14 +39,13 @@ ClosureScale find_closure_scale(const Model& closed, const State<double>& s) {
   update_rows<RowStorage::cut>(m, closed.parameters, w);
   ClosureScale scale{find_extent(closed, w), VectorXd::Ones(m.cut_row_count()),
                      VectorXd::Ones(m.nv)};
-  for (std::size_t r = 0; r < m.cut_rows.size(); ++r) {
+  for (const RowIndex r : indices_of(m.cut_rows)) {
     const bool is_length = !measures_turn(m.cut_rows[r].kind);
-    if (is_length) scale.row[static_cast<Eigen::Index>(r)] = 1.0 / scale.extent;
+    if (is_length) scale.row[r.value()] = 1.0 / scale.extent;
   }
-  for (int k = 0; k < m.nv; ++k) {
-    const bool is_length =
-        m.velocities[static_cast<std::size_t>(k)].kind == VelocityKind::translation;
-    if (is_length) scale.velocity[k] = scale.extent;
+  for (const VelocityIndex k : velocities(m)) {
+    const bool is_length = m.velocities[k].kind == VelocityKind::translation;
+    if (is_length) scale.velocity[k.value()] = scale.extent;
   }
   return scale;
 }
@@ -59,10 +58,10 @@ ScaledClosures compute_scaled_closures(const Model& closed, const ClosureScale& 
   update_rows<RowStorage::cut>(m, closed.parameters, w);
   const int rows = m.cut_row_count();
   ScaledClosures c{VectorXd(rows), VectorXd(rows), {}};
-  for (int r = 0; r < rows; ++r) {
-    const RowState<double>& row = w.cut_rows[static_cast<std::size_t>(r)];
-    c.residual[r] = scale.row[r] * row.d;
-    c.bias[r] = scale.row[r] * row.bias;
+  for (const RowIndex r : indices_of(m.cut_rows)) {
+    const double size = scale.row[r.value()];
+    c.residual[r.value()] = size * w.cut_rows[r].d;
+    c.bias[r.value()] = size * w.cut_rows[r].bias;
   }
   c.jacobian = scale.row.asDiagonal() *
                row_jacobian(m, closed.parameters, w, m.cut_rows, w.cut_rows) *
@@ -74,12 +73,12 @@ VectorXd scaled_difference(const Mechanism& m, const ClosureScale& scale, const 
                            const State<double>& b) {
   VectorXd d(m.nv);
   for (const Stage& stage : m.stages) {
-    const double* qa = a.q.data() + stage.q;
-    const double* qb = b.q.data() + stage.q;
+    const double* qa = &a.q[stage.q];
+    const double* qb = &b.q[stage.q];
     if (stage.motion == BasicMotion::ball) {
-      d.segment<3>(stage.v) = turn_between(qa, qb);
+      d.segment<3>(stage.v.value()) = turn_between(qa, qb);
     } else {
-      d[stage.v] = *qb - *qa;
+      d[stage.v.value()] = *qb - *qa;
     }
   }
   return d.cwiseQuotient(scale.velocity);

@@ -17,31 +17,31 @@ bool turns_about_an_axis(BasicMotion motion) {
   return motion == BasicMotion::rx || motion == BasicMotion::ry || motion == BasicMotion::rz;
 }
 
-// First stage of three turns in a row, or -1.
-int first_of_three(const Mechanism& m, const Body& body) {
+// First stage of three turns in a row, or none.
+StageIndex first_of_three(const Mechanism& m, const Body& body) {
   int run = 0;
-  for (int i = body.stage_begin; i < body.stage_end; ++i) {
-    run = turns_about_an_axis(m.stages[static_cast<std::size_t>(i)].motion) ? run + 1 : 0;
+  for (const StageIndex i : stages_of(body)) {
+    run = turns_about_an_axis(m.stages[i].motion) ? run + 1 : 0;
     if (run == 3) return i - 2;
   }
-  return -1;
+  return {};
 }
 
 // The middle angles of joints of which `fails` holds, with their values.
 template <class Fails>
-std::vector<std::string> name_angles(const Mechanism& m, const std::vector<double>& q,
+std::vector<std::string> name_angles(const Mechanism& m, Positions<const double> q,
                                      const Fails& fails) {
   std::vector<std::string> angles;
-  for (int b = 1; b < m.body_count(); ++b) {
-    const Body& body = m.bodies[static_cast<std::size_t>(b)];
-    const int first = first_of_three(m, body);
-    if (first < 0) continue;
-    const Stage& middle = m.stages[static_cast<std::size_t>(first + 1)];
+  for (const BodyIndex b : bodies_outwards(m)) {
+    const Body& body = m.bodies[b];
+    const StageIndex first = first_of_three(m, body);
+    if (!first.exists()) continue;
+    const Stage& middle = m.stages[first + 1];
     if (!fails(middle)) continue;
     char text[64];
     std::snprintf(text, sizeof text, ".%d = %.6g deg", middle.v - body.v_begin,
-                  q[static_cast<std::size_t>(middle.q)] * 180.0 / std::numbers::pi);
-    angles.push_back("joint." + m.joint_names[static_cast<std::size_t>(b)] + text);
+                  q[middle.q] * 180.0 / std::numbers::pi);
+    angles.push_back("joint." + m.joint_names[b] + text);
   }
   return angles;
 }
@@ -55,40 +55,40 @@ Eigen::MatrixXd take_columns_by_turns(const Model& model, const State<double>& s
   const Mechanism& m = model.mechanism;
   Workspace<double> w = make_workspace<double>(m);
   update_kinematics(m, model.parameters, s.q.data(), s.v.data(), w);
-  const auto has = [&](int v) { return std::count(columns.begin(), columns.end(), v) > 0; };
+  const auto has = [&](VelocityIndex v) {
+    return std::count(columns.begin(), columns.end(), v.value()) > 0;
+  };
   Eigen::MatrixXd j = jacobian;
-  for (int b = 1; b < m.body_count(); ++b) {
-    const int stage = first_of_three(m, m.bodies[static_cast<std::size_t>(b)]);
-    if (stage < 0) continue;
-    const int v = m.stages[static_cast<std::size_t>(stage)].v;
+  for (const BodyIndex b : bodies_outwards(m)) {
+    const StageIndex stage = first_of_three(m, m.bodies[b]);
+    if (!stage.exists()) continue;
+    const VelocityIndex v = m.stages[stage].v;
     if (!has(v) || !has(v + 1) || !has(v + 2)) continue;
     Eigen::Matrix3d axes;
-    for (int k = 0; k < 3; ++k) axes.col(k) = to_eigen(w.axes[static_cast<std::size_t>(v + k)]);
+    for (int k = 0; k < 3; ++k) axes.col(k) = to_eigen(w.axes[v + k]);
     if (std::abs(axes.determinant()) < kRounding) continue;
-    const Eigen::Matrix3d child = to_eigen(w.bodies[static_cast<std::size_t>(b)].r);
-    j.middleCols<3>(v) = jacobian.middleCols<3>(v) * (axes.inverse() * child);
+    const Eigen::Matrix3d child = to_eigen(w.bodies[b].R_WB);
+    j.middleCols<3>(v.value()) = jacobian.middleCols<3>(v.value()) * (axes.inverse() * child);
   }
   return take_columns(j, columns);
 }
 
-std::vector<std::string> singular_angles(const Mechanism& m, const std::vector<double>& q,
+std::vector<std::string> singular_angles(const Mechanism& m, Positions<const double> q,
                                          double least) {
-  return name_angles(m, q, [&](const Stage& middle) {
-    return std::abs(std::cos(q[static_cast<std::size_t>(middle.q)])) < least;
-  });
+  return name_angles(m, q,
+                     [&](const Stage& middle) { return std::abs(std::cos(q[middle.q])) < least; });
 }
 
-std::vector<std::string> lost_angles(const Mechanism& m, const std::vector<double>& q,
-                                     const std::vector<double>& v) {
+std::vector<std::string> lost_angles(const Mechanism& m, Positions<const double> q,
+                                     Velocities<const double> v) {
   constexpr double kNear = 0.1;       // cos theta
   constexpr double kCancels = 0.1;    // of the larger rate, what is left of both
   constexpr double kOutgrown = 10.0;  // times the rate of theta, which stays what it was
   return name_angles(m, q, [&](const Stage& middle) {
-    const auto rate = [&](int k) { return std::abs(v[static_cast<std::size_t>(middle.v + k)]); };
+    const auto rate = [&](int k) { return std::abs(v[middle.v + k]); };
     const double larger = std::max(rate(-1), rate(1));
     const bool cancels = std::abs(rate(1) - rate(-1)) < kCancels * larger;
-    return std::abs(std::cos(q[static_cast<std::size_t>(middle.q)])) < kNear ||
-           (cancels && larger > kOutgrown * rate(0));
+    return std::abs(std::cos(q[middle.q])) < kNear || (cancels && larger > kOutgrown * rate(0));
   });
 }
 

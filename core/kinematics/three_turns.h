@@ -25,14 +25,14 @@ Eigen::MatrixXd take_columns_by_turns(const Model& model, const State<double>& s
                                       const std::vector<int>& columns);
 
 // "joint.S.1 = 89.97 deg" of joints whose angles are singular within `least` of |det A|.
-std::vector<std::string> singular_angles(const Mechanism& m, const std::vector<double>& q,
+std::vector<std::string> singular_angles(const Mechanism& m, Positions<const double> q,
                                          double least = kSingularAngles);
 
 // The same for a run that was lost with the last state (q, v): near enough for rates to grow, 6
 // deg, or already past it, where those of the first and the last angle are large and cancel each
 // other.
-std::vector<std::string> lost_angles(const Mechanism& m, const std::vector<double>& q,
-                                     const std::vector<double>& v);
+std::vector<std::string> lost_angles(const Mechanism& m, Positions<const double> q,
+                                     Velocities<const double> v);
 
 // What to do about them: a sentence, or nothing where there are none.
 std::string singular_angles_text(const std::vector<std::string>& angles);

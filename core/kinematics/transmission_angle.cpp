@@ -20,8 +20,9 @@ bool are_parallel(const Vector3d& a, const Vector3d& b) {
   return a.cross(b).norm() <= kParallel;
 }
 
-int index_of(const std::vector<std::string>& names, const std::string& name) {
-  return static_cast<int>(std::ranges::find(names, name) - names.begin());
+template <class Index>
+Index index_of(const IndexedVector<Index, std::string>& names, const std::string& name) {
+  return Index(static_cast<int>(std::ranges::find(names, name) - names.begin()));
 }
 
 }  // namespace
@@ -32,7 +33,7 @@ TransmissionLoop::Member TransmissionLoop::member_of(const Mechanism& m, const s
   const std::string own = name.substr(name.find('.') + 1);
   if (name.starts_with("closure.")) {
     one.closure = index_of(m.closure_names, own);
-    const ClosureStructure& c = at(m.closures, one.closure);
+    const ClosureStructure& c = m.closures[one.closure];
     const CutJoint joint = cut_joint_of(m, one.closure);
     one.parent = c.first;
     one.child = c.second;
@@ -42,11 +43,11 @@ TransmissionLoop::Member TransmissionLoop::member_of(const Mechanism& m, const s
     return one;
   }
   one.body = index_of(m.joint_names, own);
-  const Body& body = at(m.bodies, one.body);
+  const Body& body = m.bodies[one.body];
   one.parent = body.parent;
   one.child = one.body;
-  for (int i = body.stage_begin; i < body.stage_end; ++i) {
-    const BasicMotion motion = at(m.stages, i).motion;
+  for (const StageIndex i : stages_of(body)) {
+    const BasicMotion motion = m.stages[i].motion;
     if (motion == BasicMotion::ball) one.turns += 3;
     if (motion == BasicMotion::screw) one.is_screw = true;
     if (motion >= BasicMotion::rx && motion <= BasicMotion::rz) {
@@ -81,7 +82,9 @@ std::optional<TransmissionLoop> TransmissionLoop::find(const Model& closed, cons
     return member_of(closed.mechanism, loop.joints[(place + after) % 4]);
   };
   const Member input = member(0);
-  const auto on_ground = [](const Member& one) { return one.parent == 0 || one.child == 0; };
+  const auto on_ground = [](const Member& one) {
+    return one.parent == kGroundBody || one.child == kGroundBody;
+  };
   const bool is_first = on_ground(member(1));  // round the loop the other way
   TransmissionLoop result(closed);
   result.output_ = member(is_first ? 1 : 3);
@@ -130,17 +133,16 @@ std::vector<TransmissionLoop::Place> TransmissionLoop::places_at(
   update_kinematics(m, closed_->parameters, s.q.data(), rest.data(), w);
   std::vector<Place> places;
   for (const Member* one : of) {
-    if (one->closure >= 0) {
-      ClosureStructure closure = at(m.closures, one->closure);
+    if (one->closure.exists()) {
+      ClosureStructure closure = m.closures[one->closure];
       closure.needs_frames = true;
       ClosureState<double> x{};
-      update_closure_pose(m, closure, at(closed_->parameters.closures, one->closure),
-                          w.bodies.data(), x);
+      update_closure_pose(m, closure, closed_->parameters.closures[one->closure], w.bodies, x);
       const ClosureFrame frame = first_frame(x);
       places.push_back({frame.position, frame.rotation});
     } else {
-      const BodyState<double>& body = at(w.bodies, one->body);
-      places.push_back({to_eigen(body.p), to_eigen(body.r)});
+      const BodyState<double>& body = w.bodies[one->body];
+      places.push_back({to_eigen(body.p_WB), to_eigen(body.R_WB)});
     }
   }
   return places;

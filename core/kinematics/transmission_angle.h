@@ -39,11 +39,12 @@ class TransmissionLoop {
   // A joint of the loop: a tree joint with its body, or a closure.
   struct Member {
     std::string name;
-    int body = -1, closure = -1;
-    int parent = 0, child = 0;  // bodies that it joins
-    int turns = 0;              // freedoms
-    std::vector<int> shifts;    // 0 1 2 along x y z of its frame
-    int axis = 2;               // of its frame, about which it turns
+    BodyIndex body{};
+    ClosureIndex closure{};
+    BodyIndex parent, child;  // that it joins
+    int turns = 0;            // freedoms
+    std::vector<int> shifts;  // 0 1 2 along x y z of its frame
+    int axis = 2;             // of its frame, about which it turns
     bool is_screw = false;
   };
   struct Place {

@@ -19,7 +19,7 @@ unsigned held_directions(const Closure& closure) {
 // Measures of turns: the rotation vector, or of small ones axis (tilt of the second x axis seen in
 // {1,e}) or linearized ([Urbas16] eq. (12)); a universal joint turns about x of the first and y of
 // the second.
-Row rotation_row(const Closure& closure, TiltMeasure tilt, int index, int d) {
+Row rotation_row(const Closure& closure, TiltMeasure tilt, ClosureIndex index, int d) {
   constexpr auto kind = RowKind::rotation;
   if (tilt == TiltMeasure::angle) return {RowKind::rotation_vector, index, d - kPhi, 0, 1.0, d};
   if (d == kPhi) return {kind, index, 2, 1, 1.0, d};
@@ -32,7 +32,7 @@ Row rotation_row(const Closure& closure, TiltMeasure tilt, int index, int d) {
 }
 
 // Element d of an sde: along an axis of ground or of {1,e}, or one of three directions.
-Row translation_row(const Sde& sde, int index, int d) {
+Row translation_row(const Sde& sde, ClosureIndex index, int d) {
   const bool ground = sde.axes == SdeAxes::ground;
   if (sde.form == SdeForm::three_springs) {
     return {ground ? RowKind::spring_ground : RowKind::spring_first, index, d, 0, 1.0, d};
@@ -41,13 +41,13 @@ Row translation_row(const Sde& sde, int index, int d) {
 }
 
 // The one row of a rod.
-std::vector<Row> rod_row(int index) {
+std::vector<Row> rod_row(ClosureIndex index) {
   return {{RowKind::line_of_centres, index, 0, 0, 1.0, kX}};
 }
 
 }  // namespace
 
-std::vector<Row> make_cut_rows(const Closure& closure, int index, unsigned idle) {
+std::vector<Row> make_cut_rows(const Closure& closure, ClosureIndex index, unsigned idle) {
   const unsigned held = held_directions(closure);
   if (closure.type == JointType::rod) {
     return (held & ~idle) != 0u ? rod_row(index) : std::vector<Row>{};
@@ -68,7 +68,7 @@ std::vector<Row> make_cut_rows(const Closure& closure, int index, unsigned idle)
   return rows;
 }
 
-std::vector<Row> make_sde_rows(const Closure& closure, int index) {
+std::vector<Row> make_sde_rows(const Closure& closure, ClosureIndex index) {
   const Sde& sde = closure.sde;
   if (closure.type == JointType::rod) return rod_row(index);
   const bool line = sde.form == SdeForm::line_of_centres;

@@ -10,6 +10,7 @@
 #include "core/model/compile_springs.h"
 #include "core/model/piecewise.h"
 #include "core/model/shapes.h"
+#include "core/model/walk.h"
 
 namespace linkstudy {
 namespace {
@@ -63,10 +64,11 @@ std::vector<BasicMotion> motions_of(const Joint& joint) {
 }
 
 // Joints in body order: repeatedly the first listed joint whose parent is placed.
-std::vector<const Joint*> tree_order(const Linkage& linkage, std::map<std::string, int>& body_of) {
+std::vector<const Joint*> tree_order(const Linkage& linkage,
+                                     std::map<std::string, BodyIndex>& body_of) {
   std::vector<const Joint*> order;
   std::vector<bool> placed(linkage.joints.size(), false);
-  body_of[kGround] = 0;
+  body_of[kGround] = kGroundBody;
   for (bool progress = true; progress;) {
     progress = false;
     for (std::size_t i = 0; i < linkage.joints.size() && !progress; ++i) {
@@ -74,7 +76,7 @@ std::vector<const Joint*> tree_order(const Linkage& linkage, std::map<std::strin
       if (placed[i] || !body_of.contains(joint.parent)) continue;
       placed[i] = progress = true;
       order.push_back(&joint);
-      body_of[joint.child] = static_cast<int>(order.size());
+      body_of[joint.child] = BodyIndex(order.size());
     }
   }
   return order;
@@ -103,10 +105,10 @@ double contact_stiffness(const Clearance& c) {
                          {c.journal.young, c.journal.poisson, c.bearing_radius - c.radial});
 }
 
-bool starts_with_ground_axes(const std::vector<Row>& rows, const ClosureStructure& c) {
+bool starts_with_ground_axes(const IndexedVector<RowIndex, Row>& rows, const ClosureStructure& c) {
   if (c.row_end - c.row_begin < 3) return false;
   for (int i = 0; i < 3; ++i) {
-    const Row& row = rows[static_cast<std::size_t>(c.row_begin + i)];
+    const Row& row = rows[c.row_begin + i];
     if (row.kind != RowKind::translation_ground || row.axis != i) return false;
   }
   return true;
@@ -153,10 +155,10 @@ class Compiler {
     Mechanism& m = mechanism();
     const Link& link = find_link(linkage_, joint.child);
     const Frame link_frame = link_in_body(joint);
-    const int index = m.body_count();
+    const BodyIndex index = m.bodies.end_index();
     Body body;
     body.parent = body_of_.at(joint.parent);
-    const Frame frame = link_frames_[static_cast<std::size_t>(body.parent)] * joint.frame;
+    const Frame frame = link_frames_[body.parent] * joint.frame;
     body.frame = shape_of(frame.rotation, body.quarter);
     body.offset = shape_of(frame.position);
     add_stages(joint, index, body);
@@ -172,7 +174,7 @@ class Compiler {
                                     center * center.transpose());
     body.center = shape_of(center);
     body.inertia = shape_of_inertia(inertia);
-    m.bodies[static_cast<std::size_t>(body.parent)].carries = true;
+    m.bodies[body.parent].carries = true;
     m.bodies.push_back(body);
     m.link_names.push_back(link.name);
     m.joint_names.push_back(joint.name);
@@ -181,41 +183,43 @@ class Compiler {
                                    to_vec3(link.mass * center), to_sym3(inertia)});
   }
 
-  void add_stages(const Joint& joint, int index, Body& body) {
+  void add_stages(const Joint& joint, BodyIndex index, Body& body) {
     Mechanism& m = mechanism();
-    body.stage_begin = static_cast<int>(m.stages.size());
-    body.q_begin = m.nq;
-    body.v_begin = m.nv;
+    body.stage_begin = m.stages.end_index();
+    body.q_begin = PositionIndex(m.nq);
+    body.v_begin = VelocityIndex(m.nv);
     for (BasicMotion motion : motions_of(joint)) {
-      m.stages.push_back({motion, m.nq, m.nv});
+      const StageIndex stage = m.stages.end_index();
+      const PositionIndex q(m.nq);
+      m.stages.push_back({motion, q, VelocityIndex(m.nv)});
       parameters().pitch.push_back(joint.pitch);
-      if (motion == BasicMotion::ball) m.ball_q.push_back(m.nq);
+      if (motion == BasicMotion::ball) m.ball_q.push_back(q);
       const int count = motion == BasicMotion::ball ? 3 : 1;
-      const int stage = static_cast<int>(m.stages.size()) - 1;
       for (int k = 0; k < count; ++k) {
-        m.velocities.push_back(
-            {index, velocity_kind(motion), stage, find_motion_of(joint, m.nv + k - body.v_begin)});
+        m.velocities.push_back({index, velocity_kind(motion), stage,
+                                find_motion_of(joint, m.velocities.end_index() - body.v_begin)});
       }
       m.nq += motion == BasicMotion::ball ? 4 : 1;
       m.nv += count;
     }
-    body.stage_end = static_cast<int>(m.stages.size());
-    body.q_count = m.nq - body.q_begin;
-    body.v_count = m.nv - body.v_begin;
-    for (int k = body.v_begin; k < m.nv; ++k) {
+    body.stage_end = m.stages.end_index();
+    body.q_count = m.nq - body.q_begin.value();
+    body.v_count = m.nv - body.v_begin.value();
+    for (const VelocityIndex k : velocities_of(body)) {
       m.v_parent.push_back(k > body.v_begin ? k - 1 : last_velocity(body.parent));
       if (joint.hold && (shuts_sdes_ || !joint.elastic)) model_.held.push_back(k);
     }
     add_start(joint, body);
   }
 
-  // Number of the prescribed motion of a coordinate, or -1.
-  int find_motion_of(const Joint& joint, int coordinate) const {
+  // The prescribed motion of a coordinate, or none.
+  MotionIndex find_motion_of(const Joint& joint, int coordinate) const {
     const auto& motions = linkage_.motions;
     const auto found = std::find_if(motions.begin(), motions.end(), [&](const Motion& motion) {
       return motion.joint == joint.name && motion.coordinate == coordinate;
     });
-    return found == motions.end() ? -1 : static_cast<int>(found - motions.begin());
+    if (found == motions.end()) return {};
+    return MotionIndex(found - motions.begin());
   }
 
   void add_joint_springs(const Joint& joint, const Body& body) {
@@ -232,7 +236,7 @@ class Compiler {
       if (bends) {
         p.curve = add_curve(joint.spring_curve->curve, SpringActs::both, s.curve, mechanism(),
                             parameters());
-        s.bend = mechanism().bent_springs++;
+        s.bend = BendIndex(mechanism().bent_springs++);
       }
       mechanism().joint_springs.push_back(s);
       parameters().joint_springs.push_back(p);
@@ -242,30 +246,28 @@ class Compiler {
   // What can move at all; the rules are those of joint_kinematics `spin` and `shift`.
   void find_motion(Body& body) const {
     const Mechanism& m = model_.mechanism;
-    const Body& parent = m.bodies[static_cast<std::size_t>(body.parent)];
+    const Body& parent = m.bodies[body.parent];
     body.rotates = parent.rotates;
     body.gyrates = parent.gyrates;
-    body.shifted = body.parent != 0 && body.offset != VectorShape::zero;
-    for (int i = body.stage_begin; i < body.stage_end; ++i) {
-      const BasicMotion motion = m.stages[static_cast<std::size_t>(i)].motion;
+    body.shifted = body.parent != kGroundBody && body.offset != VectorShape::zero;
+    for (const StageIndex i : stages_of(body)) {
+      const BasicMotion motion = m.stages[i].motion;
       if (is_rotation(motion)) {
-        const int v = m.stages[static_cast<std::size_t>(i)].v;
-        const bool is_driven = m.velocities[static_cast<std::size_t>(v)].motion >= 0;
+        const bool is_driven = m.velocities[m.stages[i].v].motion.exists();
         body.gyrates = body.gyrates || body.rotates || is_driven;
         body.rotates = true;
       }
-      body.shifted = body.shifted || (body.parent != 0 && is_translation(motion));
+      body.shifted = body.shifted || (body.parent != kGroundBody && is_translation(motion));
     }
   }
 
-  // Last velocity on the path from a body to ground, itself included.
-  int last_velocity(int body) const {
-    while (body > 0) {
-      const Body& b = model_.mechanism.bodies[static_cast<std::size_t>(body)];
-      if (b.v_count > 0) return b.v_begin + b.v_count - 1;
-      body = b.parent;
+  // Last velocity on the path from a body to ground, itself included, or none.
+  VelocityIndex last_velocity(BodyIndex body) const {
+    for (const BodyIndex b : bodies_to_ground(model_.mechanism, body)) {
+      const Body& on_path = model_.mechanism.bodies[b];
+      if (on_path.v_count > 0) return on_path.v_begin + (on_path.v_count - 1);
     }
-    return -1;
+    return {};
   }
 
   void add_start(const Joint& joint, const Body& body) {
@@ -283,7 +285,7 @@ class Compiler {
 
   void add_closure(const Closure& closure) {
     Mechanism& m = mechanism();
-    const int index = static_cast<int>(m.closures.size());
+    const ClosureIndex index = m.closures.end_index();
     ClosureStructure c;
     c.first = body_of_.at(closure.first.link);
     c.second = body_of_.at(closure.second.link);
@@ -291,15 +293,15 @@ class Compiler {
     c.model = cut && closure.model == ClosureModel::sde ? ClosureModel::cut : closure.model;
     c.stabilization = closure.stabilization;
     c.is_rod = closure.type == JointType::rod;
-    std::vector<Row>& rows = cut ? m.cut_rows : m.sde_rows;
-    c.row_begin = static_cast<int>(rows.size());
+    auto& rows = cut ? m.cut_rows : m.sde_rows;
+    c.row_begin = rows.end_index();
     add_rows(closure, index, cut);
-    c.row_end = static_cast<int>(rows.size());
+    c.row_end = rows.end_index();
     c.last_1 = last_velocity(c.first);
     c.last_2 = last_velocity(c.second);
     add_support({c.last_1, c.last_2}, c);
-    for (int r = c.row_begin; r < c.row_end; ++r) {
-      const RowKind kind = rows[static_cast<std::size_t>(r)].kind;
+    for (const RowIndex r : rows_of(c)) {
+      const RowKind kind = rows[r].kind;
       c.has_line = c.has_line || kind == RowKind::line_of_centres;
       c.needs_frames = c.needs_frames || measures_turn(kind) ||
                        kind == RowKind::translation_first || kind == RowKind::spring_first;
@@ -311,8 +313,8 @@ class Compiler {
     }
     m.closure_names.push_back(closure.name);
 
-    const Frame f1 = link_frames_[static_cast<std::size_t>(c.first)] * closure.first.frame;
-    const Frame f2 = link_frames_[static_cast<std::size_t>(c.second)] * closure.second.frame;
+    const Frame f1 = link_frames_[c.first] * closure.first.frame;
+    const Frame f2 = link_frames_[c.second] * closure.second.frame;
     c.point_1 = shape_of(f1.position);
     c.point_2 = shape_of(f2.position);
     m.closures.push_back(c);
@@ -323,16 +325,16 @@ class Compiler {
          baumgarte ? closure.beta * closure.beta : 0.0, closure.length});
   }
 
-  void add_clearance(const Clearance& c, int closure) {
+  void add_clearance(const Clearance& c, ClosureIndex closure) {
     Mechanism& m = mechanism();
-    const int index = static_cast<int>(m.clearances.size());
-    const int first = static_cast<int>(m.contacts.size());
+    const ClearanceIndex index = m.clearances.end_index();
+    const ContactIndex first = m.contacts.end_index();
     const bool spatial = c.kind == ClearanceKind::spatial;
     for (double side : spatial ? std::vector{-0.5, 0.5} : std::vector{0.0}) {
-      m.contacts.push_back({index, side, c.friction ? add_bristles(1, model_) : -1});
+      m.contacts.push_back({index, side, c.friction ? add_bristles(1, model_) : BristleIndex()});
     }
     m.clearances.push_back({closure, c.bearing_is_first, c.exponent == 1.5, c.approach, c.points,
-                            c.free_bristle, first, static_cast<int>(m.contacts.size())});
+                            c.free_bristle, first, m.contacts.end_index()});
     const double stiffness = contact_stiffness(c) * (spatial ? 0.5 : 1.0);
     const Friction friction = c.friction.value_or(Friction{});
     const double relaxation = c.friction && c.free_bristle == FreeBristle::relax
@@ -348,10 +350,10 @@ class Compiler {
   }
 
   // Rows of a closure held by multipliers, or by a spring-damping element.
-  void add_rows(const Closure& closure, int index, bool cut) {
+  void add_rows(const Closure& closure, ClosureIndex index, bool cut) {
     Mechanism& m = mechanism();
     if (cut) {
-      const auto i = static_cast<std::size_t>(index);
+      const auto i = static_cast<std::size_t>(index.value());
       const auto rows = make_cut_rows(closure, index, i < idle_.size() ? idle_[i] : 0u);
       m.cut_rows.insert(m.cut_rows.end(), rows.begin(), rows.end());
       m.projects |= closure.stabilization == Stabilization::projection;
@@ -367,13 +369,13 @@ class Compiler {
 
   // `ends`: last velocities of the paths.
   template <class Structure>
-  void add_support(const std::vector<int>& ends, Structure& c) {
+  void add_support(const std::vector<VelocityIndex>& ends, Structure& c) {
     Mechanism& m = mechanism();
-    std::vector<int> support;
-    for (int last : ends) {
-      for (int k = last; k >= 0; k = m.v_parent[static_cast<std::size_t>(k)]) support.push_back(k);
+    std::vector<VelocityIndex> support;
+    for (const VelocityIndex last : ends) {
+      for (const VelocityIndex k : path(m, last)) support.push_back(k);
     }
-    std::sort(support.begin(), support.end(), std::greater<>());
+    std::ranges::sort(support, std::greater<>());
     support.erase(std::unique(support.begin(), support.end()), support.end());
     c.support_begin = static_cast<int>(m.support.size());
     m.support.insert(m.support.end(), support.begin(), support.end());
@@ -382,25 +384,25 @@ class Compiler {
 
   void add_coupling(const Coupling& coupling) {
     Mechanism& m = mechanism();
-    CouplingStructure c{.row = m.cut_row_count(),
-                        .term_begin = static_cast<int>(m.coupling_terms.size())};
-    const int index = static_cast<int>(m.couplings.size());
-    std::vector<int> ends;
+    CouplingStructure c{.row = m.cut_rows.end_index(), .term_begin = m.coupling_terms.end_index()};
+    const CouplingIndex index = m.couplings.end_index();
+    std::vector<VelocityIndex> ends;
     double sum = 0.0;
     for (const CouplingTerm& term : coupling.terms) {
       const Body& body = body_on(term.joint);
-      const int q = body.q_begin + term.coordinate, v = body.v_begin + term.coordinate;
+      const PositionIndex q = body.q_begin + term.coordinate;
+      const VelocityIndex v = body.v_begin + term.coordinate;
       m.coupling_terms.push_back({q, v});
       parameters().coupling_factors.push_back(term.factor);
-      sum += term.factor * model_.start.q[static_cast<std::size_t>(q)];
+      sum += term.factor * model_.start.q[q];
       ends.push_back(v);
     }
-    c.term_end = static_cast<int>(m.coupling_terms.size());
+    c.term_end = m.coupling_terms.end_index();
     add_support(ends, c);
-    const auto& first = m.velocities[static_cast<std::size_t>(ends.front())];
+    const auto& first = m.velocities[ends.front()];
     const bool shifts = first.kind == VelocityKind::translation;
     m.cut_rows.push_back(
-        {shifts ? RowKind::coupling_shift : RowKind::coupling_turn, index, 0, 0, 1.0, 0});
+        {shifts ? RowKind::coupling_shift : RowKind::coupling_turn, {}, 0, 0, 1.0, 0, index});
     parameters().coupling_offsets.push_back(coupling.offset.value_or(sum));
     m.couplings.push_back(c);
     m.coupling_names.push_back(coupling.name);
@@ -409,7 +411,7 @@ class Compiler {
   const Body& body_on(const std::string& joint) const {
     const auto& names = model_.mechanism.joint_names;
     const auto at = std::find(names.begin() + 1, names.end(), joint);
-    return model_.mechanism.bodies[static_cast<std::size_t>(at - names.begin())];
+    return model_.mechanism.bodies[BodyIndex(at - names.begin())];
   }
 
   void place_load(const Load& load) {
@@ -418,7 +420,7 @@ class Compiler {
       placed.v = body_on(load.joint).v_begin + load.coordinate;
     } else {
       placed.body = body_of_.at(load.link);
-      const Frame& f = link_frames_[static_cast<std::size_t>(placed.body)];
+      const Frame& f = link_frames_[placed.body];
       const Eigen::Vector3d e = load.direction.normalized();
       placed.point = point_in_body(placed.body, load.point);
       placed.direction = to_vec3(load.follows_link ? Eigen::Vector3d(f.rotation * e) : e);
@@ -426,25 +428,27 @@ class Compiler {
     add_load(load, placed, model_);
   }
 
-  Vec3<double> point_in_body(int body, const Eigen::Vector3d& position) const {
-    const Frame& f = link_frames_[static_cast<std::size_t>(body)];
+  Vec3<double> point_in_body(BodyIndex body, const Eigen::Vector3d& position) const {
+    const Frame& f = link_frames_[body];
     return to_vec3(f.rotation * position + f.position);
   }
 
   void add_spring(const PointSpring& spring) {
-    const int first = body_of_.at(spring.first.link), second = body_of_.at(spring.second.link);
+    const BodyIndex first = body_of_.at(spring.first.link);
+    const BodyIndex second = body_of_.at(spring.second.link);
     add_point_spring(spring, {first, point_in_body(first, spring.first.position)},
                      {second, point_in_body(second, spring.second.position)},
-                     spring.course ? coordinate_of(*spring.course) : -1, model_);
+                     spring.course ? coordinate_of(*spring.course) : PositionIndex(), model_);
   }
 
-  // Index of the coordinate that a course goes over, or -1.
-  int coordinate_of(const Course& course) const {
-    return course.over ? body_on(course.over->joint).q_begin + course.over->coordinate : -1;
+  // The coordinate that a course goes over, or none.
+  PositionIndex coordinate_of(const Course& course) const {
+    if (!course.over) return {};
+    return body_on(course.over->joint).q_begin + course.over->coordinate;
   }
 
   void add_point(const ChosenPoint& point) {
-    const int body = body_of_.at(point.link);
+    const BodyIndex body = body_of_.at(point.link);
     mechanism().point_bodies.push_back(body);
     mechanism().point_names.push_back(point.name);
     parameters().points.push_back(point_in_body(body, point.position));
@@ -454,8 +458,8 @@ class Compiler {
   const std::vector<unsigned>& idle_;
   bool shuts_sdes_;
   Model model_;
-  std::map<std::string, int> body_of_;
-  std::vector<Frame> link_frames_;  // frame of the link in its body's internal frame
+  std::map<std::string, BodyIndex> body_of_;
+  IndexedVector<BodyIndex, Frame> link_frames_;  // frame of the link in its body's internal frame
 };
 
 }  // namespace

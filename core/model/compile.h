@@ -12,8 +12,8 @@ struct Model {
   Mechanism mechanism;
   Parameters<double> parameters;
   State<double> start;  // as given; not yet assembled
-  // Velocity indices of joints with hold = true; joints of flexible links in compile_start only.
-  std::vector<int> held;
+  // Velocities of joints with hold = true; joints of flexible links in compile_start only.
+  std::vector<VelocityIndex> held;
 };
 
 // Of a linkage in which check() finds nothing. Bodies follow the order of Linkage::joints wherever

@@ -3,7 +3,7 @@
 namespace linkstudy {
 namespace {
 
-void add_constant_friction(const Joint& joint, int number, const Body& body, Model& model) {
+void add_constant_friction(const Joint& joint, BodyIndex number, const Body& body, Model& model) {
   const JointFriction& f = *joint.friction;
   const bool is_ball = joint.coordinates == RotationCoordinates::quaternion;
   const auto rub = [&](int first, int count, std::array<double, 3> arm, bool turns) {
@@ -47,19 +47,19 @@ LugreParameters<double> lugre_parameters(const Friction& f) {
   return {f.mu_s, f.mu_k, f.v_s, f.sigma0, f.sigma1, f.sigma2, f.v_d};
 }
 
-int add_bristles(int count, Model& model) {
-  const int first = model.mechanism.nz;
+BristleIndex add_bristles(int count, Model& model) {
+  const BristleIndex first(model.mechanism.nz);
   model.mechanism.nz += count;
   model.start.z.resize(static_cast<std::size_t>(model.mechanism.nz), 0.0);
   return first;
 }
 
-void add_joint_friction(const Joint& joint, int number, const Body& body, Model& model) {
+void add_joint_friction(const Joint& joint, BodyIndex number, const Body& body, Model& model) {
   const JointFriction& f = *joint.friction;
   if (f.load == FrictionLoad::constant) return add_constant_friction(joint, number, body, model);
   JointFrictionStructure s{.body = number, .z = add_bristles(body.v_count, model)};
   if (joint.type != JointType::prismatic) s.turn = body.v_begin;
-  if (joint.type != JointType::revolute) s.slide = body.v_begin + body.v_count - 1;
+  if (joint.type != JointType::revolute) s.slide = body.v_begin + (body.v_count - 1);
   model.mechanism.frictions.push_back(s);
   const auto inverse = [](double x) { return x > 0.0 ? 1.0 / x : 0.0; };
   model.parameters.frictions.push_back(

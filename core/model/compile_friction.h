@@ -7,10 +7,10 @@ namespace linkstudy {
 
 LugreParameters<double> lugre_parameters(const Friction& friction);
 
-// Number of the first of new bristles, which are not bent.
-int add_bristles(int count, Model& model);
+// The first of new bristles, which are not bent.
+BristleIndex add_bristles(int count, Model& model);
 
 // Of the joint that carries the body of this number.
-void add_joint_friction(const Joint& joint, int number, const Body& body, Model& model);
+void add_joint_friction(const Joint& joint, BodyIndex number, const Body& body, Model& model);
 
 }  // namespace linkstudy

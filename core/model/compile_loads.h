@@ -6,9 +6,9 @@
 namespace linkstudy {
 
 struct PlacedLoad {
-  int v = -1;                // velocity index: drive, resistance
-  int body = -1;             // link_force, link_torque
-  int over = -1;             // index of the coordinate that its course goes by; -1: time
+  VelocityIndex v{};         // drive, resistance
+  BodyIndex body{};          // link_force, link_torque
+  PositionIndex over{};      // coordinate that its course goes by; none: time
   Vec3<double> point{};      // internal frame, m
   Vec3<double> direction{};  // internal frame where it follows the link, else ground axes
 };

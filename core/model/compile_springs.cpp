@@ -16,8 +16,8 @@ void add_stop(const JointStops& stops, const Body& body, int coordinate, bool is
                   .hertz = stops.exponent == 1.5,
                   .is_viscous = is_viscous,
                   .approach = stops.approach,
-                  .contact = m.contact_count()};
-  m.contacts.push_back({-1, 0.0, -1, static_cast<int>(m.stops.size())});
+                  .contact = m.contacts.end_index()};
+  m.contacts.push_back({{}, 0.0, {}, m.stops.end_index()});
   m.stops.push_back(s);
   const double loss = is_viscous ? 0.0 : contact_damping(stops.law, stops.restitution);
   model.parameters.stops.push_back({is_high ? stops.high[n] : stops.low[n],
@@ -28,7 +28,7 @@ void add_stop(const JointStops& stops, const Body& body, int coordinate, bool is
 }  // namespace
 
 void add_point_spring(const PointSpring& spring, const PlacedPoint& first,
-                      const PlacedPoint& second, int over, Model& model) {
+                      const PlacedPoint& second, PositionIndex over, Model& model) {
   Mechanism& m = model.mechanism;
   PointSpringStructure s{.first = first.body,
                          .second = second.body,
@@ -43,15 +43,15 @@ void add_point_spring(const PointSpring& spring, const PlacedPoint& first,
   p.damping = spring.damping;
   p.free_length = spring.free_length.value_or(0.0);
   if (spring.force) p.curve = add_curve(*spring.force, spring.acts, s.curve, m, model.parameters);
-  if (spring.force || spring.acts != SpringActs::both) s.bend = m.bent_springs++;
+  if (spring.force || spring.acts != SpringActs::both) s.bend = BendIndex(m.bent_springs++);
   if (spring.course) p.course = add_course(*spring.course, over, s.course, m, model.parameters);
   m.point_springs.push_back(s);
   m.spring_names.push_back(spring.name);
   model.parameters.point_springs.push_back(p);
 }
 
-void add_stops(const JointStops& stops, int body, Model& model) {
-  const Body joint = model.mechanism.bodies[static_cast<std::size_t>(body)];
+void add_stops(const JointStops& stops, BodyIndex body, Model& model) {
+  const Body joint = model.mechanism.bodies[body];
   for (int i = 0; i < joint.v_count; ++i) {
     if (stops.stiffness[static_cast<std::size_t>(i)] == 0.0) continue;
     if (!stops.low.empty()) add_stop(stops, joint, i, false, model);

@@ -6,15 +6,15 @@
 namespace linkstudy {
 
 struct PlacedPoint {
-  int body;
+  BodyIndex body;
   Vec3<double> position;  // internal frame, m
 };
 
-// over: index of the coordinate that an actuator goes by, or -1.
+// over: coordinate that an actuator goes by, or none.
 void add_point_spring(const PointSpring& spring, const PlacedPoint& first,
-                      const PlacedPoint& second, int over, Model& model);
+                      const PlacedPoint& second, PositionIndex over, Model& model);
 
 // Of the coordinates of a body's joint; their contacts come behind those of clearances.
-void add_stops(const JointStops& stops, int body, Model& model);
+void add_stops(const JointStops& stops, BodyIndex body, Model& model);
 
 }  // namespace linkstudy

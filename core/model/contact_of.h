@@ -9,14 +9,14 @@ namespace linkstudy {
 
 template <class Real>
 inline const NormalContact<Real>& law_of_contact(const Mechanism& m, const Parameters<Real>& p,
-                                                 int contact) {
-  const ContactStructure& c = at(m.contacts, contact);
-  return c.stop >= 0 ? at(p.stops, c.stop).contact : at(p.clearances, c.clearance).contact;
+                                                 ContactIndex contact) {
+  const ContactStructure& c = m.contacts[contact];
+  return c.stop.exists() ? p.stops[c.stop].contact : p.clearances[c.clearance].contact;
 }
 
-inline ApproachSpeed approach_of_contact(const Mechanism& m, int contact) {
-  const ContactStructure& c = at(m.contacts, contact);
-  return c.stop >= 0 ? at(m.stops, c.stop).approach : at(m.clearances, c.clearance).approach;
+inline ApproachSpeed approach_of_contact(const Mechanism& m, ContactIndex contact) {
+  const ContactStructure& c = m.contacts[contact];
+  return c.stop.exists() ? m.stops[c.stop].approach : m.clearances[c.clearance].approach;
 }
 
 }  // namespace linkstudy

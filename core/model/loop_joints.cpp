@@ -11,7 +11,7 @@ namespace {
 
 // A joint that holds something between two bodies.
 struct Edge {
-  int a, b;
+  BodyIndex a, b;
   LoopJoint joint;
 };
 
@@ -22,16 +22,15 @@ const Joint& joint_named(const Linkage& linkage, const std::string& name) {
 
 std::vector<Edge> holding_joints(const Linkage& linkage, const Mechanism& m) {
   std::vector<Edge> edges;
-  for (int b = 1; b < m.body_count(); ++b) {
-    const Joint& joint = joint_named(linkage, m.joint_names[static_cast<std::size_t>(b)]);
+  for (const BodyIndex b : bodies_outwards(m)) {
+    const Joint& joint = joint_named(linkage, m.joint_names[b]);
     if (joint.type == JointType::free) continue;
-    edges.push_back(
-        {m.bodies[static_cast<std::size_t>(b)].parent, b, {.body = b, .counts = !joint.elastic}});
+    edges.push_back({m.bodies[b].parent, b, {.body = b, .counts = !joint.elastic}});
   }
-  for (std::size_t i = 0; i < m.closures.size(); ++i) {
+  for (const ClosureIndex i : indices_of(m.closures)) {
     const ClosureStructure& c = m.closures[i];
     if (storage_of(c.model) != RowStorage::cut || c.first == c.second) continue;
-    edges.push_back({c.first, c.second, {.closure = static_cast<int>(i)}});
+    edges.push_back({c.first, c.second, {.closure = i}});
   }
   return edges;
 }
@@ -68,7 +67,8 @@ class Forest {
 
  private:
   void add(std::size_t i) {
-    const auto a = static_cast<std::size_t>(edges_[i].a), b = static_cast<std::size_t>(edges_[i].b);
+    const auto a = static_cast<std::size_t>(edges_[i].a.value());
+    const auto b = static_cast<std::size_t>(edges_[i].b.value());
     if (bodies_.of(a) == bodies_.of(b)) {
       join_way(a, b, nobody, i);
       return;
@@ -114,9 +114,9 @@ void add_loop_joints(const Linkage& linkage, Mechanism& m) {
       m.loop_joints.back().group = static_cast<int>(block);
     }
   }
-  for (std::size_t i = 0; i < m.closures.size(); ++i) {
+  for (const ClosureIndex i : indices_of(m.closures)) {
     if (storage_of(m.closures[i].model) != RowStorage::cut) continue;
-    const auto rows = make_cut_rows(linkage.closures[i], static_cast<int>(i), 0u);
+    const auto rows = make_cut_rows(linkage.closures[static_cast<std::size_t>(i.value())], i, 0u);
     m.loop_rows.insert(m.loop_rows.end(), rows.begin(), rows.end());
   }
 }

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "core/model/indices.h"
 #include "core/topology/linkage.h"
 
 namespace linkstudy {
@@ -22,8 +23,8 @@ enum class BasicMotion : std::uint8_t { tx, ty, tz, rx, ry, rz, screw, ball };
 
 struct Stage {
   BasicMotion motion;
-  int q;  // first position index; a ball has 4 (w x y z)
-  int v;  // first velocity index; a ball has 3 (angular velocity in the joint's child frame)
+  PositionIndex q;  // first; a ball has 4 (w x y z)
+  VelocityIndex v;  // first; a ball has 3 (angular velocity in the joint's child frame)
   bool operator==(const Stage&) const = default;
 };
 
@@ -31,10 +32,10 @@ struct Stage {
 enum class VelocityKind : std::uint8_t { translation, rotation, screw };
 
 struct Velocity {
-  int body;
+  BodyIndex body;
   VelocityKind kind;
-  int stage;        // for the pitch of a screw
-  int motion = -1;  // that prescribes it, in MechanismStructure::motions
+  StageIndex stage;      // for the pitch of a screw
+  MotionIndex motion{};  // that prescribes it, or none
   bool operator==(const Velocity&) const = default;
 };
 
@@ -53,10 +54,12 @@ struct QuarterTurn {
 };
 
 struct Body {
-  int parent = 0;
-  int stage_begin = 0, stage_end = 0;
-  int q_begin = 0, q_count = 0;
-  int v_begin = 0, v_count = 0;
+  BodyIndex parent = kGroundBody;
+  StageIndex stage_begin{0}, stage_end{0};
+  PositionIndex q_begin{0};
+  int q_count = 0;
+  VelocityIndex v_begin{0};
+  int v_count = 0;
   RotationShape frame = RotationShape::general;  // joint frame in the parent
   QuarterTurn quarter;
   VectorShape offset = VectorShape::general;  // origin of the joint frame in the parent
@@ -101,20 +104,21 @@ constexpr bool is_of_coupling(RowKind kind) {
 
 struct Row {
   RowKind kind;
-  int closure;      // or the coupling
-  int axis;         // e, or a
-  int other = 0;    // b
-  double sign = 1;  // of a rotation
-  int direction;    // Direction that the row stands for (three_springs: number of the spring)
+  ClosureIndex closure;      // or none
+  int axis;                  // e, or a
+  int other = 0;             // b
+  double sign = 1;           // of a rotation
+  int direction;             // Direction that it stands for (three_springs: number of the spring)
+  CouplingIndex coupling{};  // where it is one
   bool operator==(const Row&) const = default;
 };
 
 struct ClosureStructure {
-  int first = 0, second = 0;  // bodies
+  BodyIndex first = kGroundBody, second = kGroundBody;
   ClosureModel model = ClosureModel::cut;
   Stabilization stabilization = Stabilization::none;
-  int row_begin = 0, row_end = 0;              // in Mechanism::cut_rows or sde_rows
-  int last_1 = -1, last_2 = -1;                // last velocity on each path to ground
+  RowIndex row_begin{0}, row_end{0};           // in Mechanism::cut_rows or sde_rows
+  VelocityIndex last_1, last_2;                // last velocity on each path to ground, or none
   int support_begin = 0, support_end = 0;      // in Mechanism::support
   bool needs_frames = false;                   // some row uses {1,e} or {2,e}
   bool has_line = false;                       // some row is a line of centres or a rod
@@ -125,9 +129,9 @@ struct ClosureStructure {
   bool operator==(const ClosureStructure&) const = default;
 };
 
-// Segments of a piecewise linear force in Parameters::segments; none: the force is linear.
+// Segments of a piecewise linear force; none: the force is linear.
 struct CurveStructure {
-  int begin = 0, end = 0;
+  SegmentIndex begin{0}, end{0};
   bool is_linear() const { return begin == end; }
   bool operator==(const CurveStructure&) const = default;
 };
@@ -135,95 +139,98 @@ struct CurveStructure {
 // What an amplitude goes by.
 struct CourseStructure {
   CourseShape shape = CourseShape::constant;
-  int q = -1;  // coordinate of a table; -1: time
+  PositionIndex q;  // coordinate of a table; none: time
   bool repeats = false;
-  int begin = 0, end = 0;  // segments of a table
-  int bend = -1;           // number among what changes its stiffness along a run; -1: time
+  SegmentIndex begin{0}, end{0};  // of a table
+  BendIndex bend{};               // of a table over a coordinate
   bool operator==(const CourseStructure&) const = default;
 };
 
 // Spring and damper on one coordinate of a tree joint, and a curve beside them.
 struct JointSpring {
-  int q, v;
+  PositionIndex q;
+  VelocityIndex v;
   CurveStructure curve{};
-  int bend = -1;  // as below
+  BendIndex bend{};  // of a curve
   bool operator==(const JointSpring&) const = default;
 };
 
 // Spring, damper and actuator between a point of each of two bodies.
 struct PointSpringStructure {
-  int first = 0, second = 0;  // bodies
+  BodyIndex first = kGroundBody, second = kGroundBody;
   SpringActs acts = SpringActs::both;
   CurveStructure curve;
   bool is_driven = false;  // has an actuator
   CourseStructure course;
-  int bend = -1;  // number among what changes its stiffness or damping; -1: it does not
+  BendIndex bend{};  // where it changes its stiffness or damping
   bool operator==(const PointSpringStructure&) const = default;
 };
 
 // Clearance of a revolute closure: its contacts, and which end is the bearing.
 struct ClearanceStructure {
-  int closure;
+  ClosureIndex closure;
   bool bearing_first;
   bool hertz;  // exponent 3/2
   ApproachSpeed approach = ApproachSpeed::begin;
   ContactPoints points = ContactPoints::one;
   FreeBristle free_bristle = FreeBristle::reset;
-  int contact_begin, contact_end;  // planar 1, spatial 2
+  ContactIndex contact_begin, contact_end;  // planar 1, spatial 2
   bool operator==(const ClearanceStructure&) const = default;
 };
 
 // One place where a journal can touch its bearing, or a joint its end stop.
 struct ContactStructure {
-  int clearance;  // -1 of a stop
-  double side;    // of the bearing's length, from its middle: 0, -1/2, 1/2
-  int z = -1;     // bristle, or -1: no friction
-  int stop = -1;  // -1 of a clearance
+  ClearanceIndex clearance;  // none: of a stop
+  double side;               // of the bearing's length, from its middle: 0, -1/2, 1/2
+  BristleIndex z{};          // none: no friction
+  StopIndex stop{};          // none: of a clearance
   bool operator==(const ContactStructure&) const = default;
 };
 
 // An end stop: contact where the coordinate is beyond its limit on one side.
 struct StopStructure {
-  int q, v;
+  PositionIndex q;
+  VelocityIndex v;
   bool is_high;
   bool hertz;       // exponent 3/2
   bool is_viscous;  // damped by b d' in place of the law of an impact
   ApproachSpeed approach = ApproachSpeed::begin;
-  int contact;
+  ContactIndex contact;
   bool operator==(const StopStructure&) const = default;
 };
 
-// Friction in a tree joint: velocities it brakes (or -1), and its first bristle.
+// Friction in a tree joint: velocities it brakes (or none), and its first bristle.
 struct JointFrictionStructure {
-  int body;
-  int turn = -1, slide = -1;
-  int z;
+  BodyIndex body;
+  VelocityIndex turn{}, slide{};
+  BristleIndex z;
   bool operator==(const JointFrictionStructure&) const = default;
 };
 
 // Friction in a tree joint under a constant load: rates that rub as a vector, and their bristles.
 struct ConstantFrictionStructure {
-  int body;
-  int v, count;             // first rate, how many
+  BodyIndex body;
+  VelocityIndex v;          // first rate
+  int count;                // how many
   bool turns = false;       // the first of them
   bool has_angles = false;  // three rates of angles, which rub as the angular velocity
-  int z;
+  BristleIndex z;
   bool operator==(const ConstantFrictionStructure&) const = default;
 };
 
 // A joint whose reaction is shared with the other joints of its loops.
 struct LoopJoint {
-  int group = 0;       // loops that have joints in common
-  int body = -1;       // that a tree joint carries, or
-  int closure = -1;    // the closure
-  bool counts = true;  // false inside a flexible link: takes what the others leave
+  int group = 0;           // loops that have joints in common
+  BodyIndex body{};        // that a tree joint carries, or
+  ClosureIndex closure{};  // the closure
+  bool counts = true;      // false inside a flexible link: takes what the others leave
   bool operator==(const LoopJoint&) const = default;
 };
 
 struct LoadStructure {
   LoadType type;
-  int v = -1;     // drive, resistance
-  int body = -1;  // link_force, link_torque
+  VelocityIndex v{};  // drive, resistance
+  BodyIndex body{};   // link_force, link_torque
   bool follows_link = false;
   CourseStructure course{};
   ResistanceShape law = ResistanceShape::linear;
@@ -232,11 +239,12 @@ struct LoadStructure {
 
 // A coordinate whose motion is prescribed.
 struct MotionStructure {
-  int q, v;
+  PositionIndex q;
+  VelocityIndex v;
   MotionLaw law;
-  bool rises = false;                      // a speed, after a time
-  int knot_begin = 0, knot_end = 0;        // of a table, in Parameters::knots
-  int support_begin = 0, support_end = 0;  // in MechanismStructure::motion_support
+  bool rises = false;                    // a speed, after a time
+  KnotIndex knot_begin{0}, knot_end{0};  // of a table, in Parameters::knots
+  MotionSupportIndex support_begin{0}, support_end{0};
   bool operator==(const MotionStructure&) const = default;
 };
 
@@ -249,13 +257,14 @@ constexpr RowStorage storage_of(ClosureModel model) {
 
 // A relation between coordinates: one row behind those of the closures.
 struct CouplingStructure {
-  int row = 0;                             // in MechanismStructure::cut_rows
-  int term_begin = 0, term_end = 0;        // in MechanismStructure::coupling_terms
+  RowIndex row{0};                         // in MechanismStructure::cut_rows
+  TermIndex term_begin{0}, term_end{0};    // in MechanismStructure::coupling_terms
   int support_begin = 0, support_end = 0;  // in MechanismStructure::support
   bool operator==(const CouplingStructure&) const = default;
 };
 struct CouplingTermStructure {
-  int q, v;
+  PositionIndex q;
+  VelocityIndex v;
   bool operator==(const CouplingTermStructure&) const = default;
 };
 
@@ -263,38 +272,42 @@ struct CouplingTermStructure {
 struct MechanismStructure {
   int nq = 0;
   int nv = 0;
-  std::vector<Body> bodies;          // (nb), [0] ground
-  std::vector<Stage> stages;         // in body order
-  std::vector<int> v_parent;         // (nv) previous velocity on the path to ground, or -1
-  std::vector<Velocity> velocities;  // (nv)
-  std::vector<int> ball_q;           // first position index of every quaternion
-  std::vector<ClosureStructure> closures;
-  std::vector<Row> cut_rows;  // (nc) constraint rows, closure by closure, of clearances too
-  std::vector<Row> sde_rows;  // (ns)
+  IndexedVector<BodyIndex, Body> bodies;  // (nb), [0] ground
+  IndexedVector<StageIndex, Stage> stages;
+  // (nv) previous velocity on the path to ground, or none
+  IndexedVector<VelocityIndex, VelocityIndex> v_parent;
+  IndexedVector<VelocityIndex, Velocity> velocities;  // (nv)
+  std::vector<PositionIndex> ball_q;                  // first of every quaternion
+  IndexedVector<ClosureIndex, ClosureStructure> closures;
+  // (nc) constraint rows, closure by closure, of clearances too
+  IndexedVector<RowIndex, Row> cut_rows;
+  IndexedVector<RowIndex, Row> sde_rows;  // (ns)
   // By closure and coupling: velocities on the paths of both ends, or of all terms, to ground,
   // descending.
-  std::vector<int> support;
-  std::vector<LoadStructure> loads;
-  std::vector<JointSpring> joint_springs;
-  std::vector<PointSpringStructure> point_springs;
-  std::vector<ClearanceStructure> clearances;
-  std::vector<ContactStructure> contacts;  // clearance by clearance, then those of stops
-  std::vector<StopStructure> stops;
-  std::vector<JointFrictionStructure> frictions;
-  std::vector<ConstantFrictionStructure> constant_frictions;
+  std::vector<VelocityIndex> support;
+  IndexedVector<LoadIndex, LoadStructure> loads;
+  IndexedVector<JointSpringIndex, JointSpring> joint_springs;
+  IndexedVector<PointSpringIndex, PointSpringStructure> point_springs;
+  IndexedVector<ClearanceIndex, ClearanceStructure> clearances;
+  IndexedVector<ContactIndex, ContactStructure> contacts;
+  IndexedVector<StopIndex, StopStructure> stops;
+  IndexedVector<FrictionIndex, JointFrictionStructure> frictions;
+  IndexedVector<ConstantFrictionIndex, ConstantFrictionStructure> constant_frictions;
   int nz = 0;  // bristles
   int table_segments = 0;
-  std::vector<CouplingStructure> couplings;
-  std::vector<CouplingTermStructure> coupling_terms;
-  std::vector<MotionStructure> motions;
-  std::vector<int> motion_support;  // by motion: velocities that carry its body, or that it carries
-  int knots = 0;                    // of the tables of motions
+  IndexedVector<CouplingIndex, CouplingStructure> couplings;
+  IndexedVector<TermIndex, CouplingTermStructure> coupling_terms;
+  IndexedVector<MotionIndex, MotionStructure> motions;
+  // By motion: velocities that carry its body, or that it carries.
+  IndexedVector<MotionSupportIndex, VelocityIndex> motion_support;
+  int knots = 0;  // of the tables of motions
   int bent_springs = 0;
   bool projects = false;  // some cut closure asks for coordinate projection
   // How redundant reactions are shared (core/dynamics/shared_reactions.h); empty where they are
   // those of the multipliers.
-  std::vector<LoopJoint> loop_joints;  // those that count first
-  std::vector<Row> loop_rows;          // of all closures with multipliers, idle rows included
+  IndexedVector<LoopJointIndex, LoopJoint> loop_joints;  // those that count first
+  // Of all closures with multipliers, idle rows included.
+  IndexedVector<LoopRowIndex, Row> loop_rows;
 
   bool operator==(const MechanismStructure&) const = default;
 
@@ -307,16 +320,16 @@ struct MechanismStructure {
 
 struct Mechanism : MechanismStructure {
   // Of what is only looked at: chosen points. The step loop does not know them.
-  std::vector<int> point_bodies;
+  IndexedVector<PointIndex, BodyIndex> point_bodies;
 
   // Names, for channels and messages only.
-  std::vector<std::string> link_names;      // by body
-  std::vector<std::string> joint_names;     // by body; [0] empty
-  std::vector<std::string> closure_names;   // by closure
-  std::vector<std::string> spring_names;    // by spring between points
-  std::vector<std::string> motion_names;    // by motion
-  std::vector<std::string> coupling_names;  // by coupling
-  std::vector<std::string> point_names;     // by chosen point
+  IndexedVector<BodyIndex, std::string> link_names;
+  IndexedVector<BodyIndex, std::string> joint_names;  // [0] empty
+  IndexedVector<ClosureIndex, std::string> closure_names;
+  IndexedVector<PointSpringIndex, std::string> spring_names;
+  IndexedVector<MotionIndex, std::string> motion_names;
+  IndexedVector<CouplingIndex, std::string> coupling_names;
+  IndexedVector<PointIndex, std::string> point_names;
 };
 
 // True if cases of a and b may share a step loop (names and chosen points aside).

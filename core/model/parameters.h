@@ -7,18 +7,24 @@
 #include "core/laws/lugre_friction.h"
 #include "core/laws/normal_contact.h"
 #include "core/laws/prescribed_motion.h"
+#include "core/model/indices.h"
 #include "core/spatial/vector3.h"
 
 namespace linkstudy {
 
+// P is the parent's internal frame, J the joint frame in it, before the joint moves.
 template <class Real>
 struct BodyParameters {
-  Mat3<Real> frame;    // R_PJ: joint frame in the parent's internal frame
-  Vec3<Real> origin;   // p_PJ, m
+  Mat3<Real> R_PJ;
+  Vec3<Real> p_PJ;     // m
   Real mass;           // kg
   Vec3<Real> moment;   // mass times centre of mass, internal frame, kg m
   Sym3<Real> inertia;  // about the internal origin, internal axes, kg m^2
 };
+
+// By stage, m/rad.
+template <class Real>
+using Pitches = std::type_identity_t<IndexedPointer<StageIndex, const Real>>;
 
 template <class Real>
 struct ClosureParameters {
@@ -52,6 +58,9 @@ template <class Real>
 struct SegmentParameters {
   Real begin, length, slope;  // of a table course, or a force over a length or coordinate
 };
+
+template <class Real>
+using Segments = IndexedVector<SegmentIndex, SegmentParameters<Real>>;
 
 template <class Real>
 struct SpringParameters {
@@ -116,24 +125,24 @@ struct ConstantFrictionParameters {
 
 template <class Real>
 struct Parameters {
-  Vec3<Real> gravity;                        // ground axes
-  std::vector<BodyParameters<Real>> bodies;  // (nb), [0] unused
-  std::vector<Real> pitch;                   // by stage, m/rad
-  std::vector<ClosureParameters<Real>> closures;
-  std::vector<SpringParameters<Real>> springs;  // (ns)
-  std::vector<LoadParameters<Real>> loads;
-  std::vector<JointSpringParameters<Real>> joint_springs;
-  std::vector<PointSpringParameters<Real>> point_springs;
-  std::vector<ClearanceParameters<Real>> clearances;
-  std::vector<StopParameters<Real>> stops;
-  std::vector<JointFrictionParameters<Real>> frictions;
-  std::vector<ConstantFrictionParameters<Real>> constant_frictions;
-  std::vector<SegmentParameters<Real>> segments;
-  std::vector<MotionParameters<Real>> motions;
-  std::vector<KnotParameters<Real>> knots;  // of the tables of motions
-  std::vector<Real> coupling_offsets;       // by coupling, rad or m
-  std::vector<Real> coupling_factors;       // by term
-  std::vector<Vec3<Real>> points;           // chosen points, internal frames, m
+  Vec3<Real> gravity;                                     // ground axes
+  IndexedVector<BodyIndex, BodyParameters<Real>> bodies;  // [0] unused
+  IndexedVector<StageIndex, Real> pitch;                  // m/rad
+  IndexedVector<ClosureIndex, ClosureParameters<Real>> closures;
+  IndexedVector<RowIndex, SpringParameters<Real>> springs;  // of sde rows
+  IndexedVector<LoadIndex, LoadParameters<Real>> loads;
+  IndexedVector<JointSpringIndex, JointSpringParameters<Real>> joint_springs;
+  IndexedVector<PointSpringIndex, PointSpringParameters<Real>> point_springs;
+  IndexedVector<ClearanceIndex, ClearanceParameters<Real>> clearances;
+  IndexedVector<StopIndex, StopParameters<Real>> stops;
+  IndexedVector<FrictionIndex, JointFrictionParameters<Real>> frictions;
+  IndexedVector<ConstantFrictionIndex, ConstantFrictionParameters<Real>> constant_frictions;
+  Segments<Real> segments;
+  IndexedVector<MotionIndex, MotionParameters<Real>> motions;
+  IndexedVector<KnotIndex, KnotParameters<Real>> knots;  // of the tables of motions
+  IndexedVector<CouplingIndex, Real> coupling_offsets;   // rad or m
+  IndexedVector<TermIndex, Real> coupling_factors;
+  IndexedVector<PointIndex, Vec3<Real>> points;  // internal frames, m
 };
 
 }  // namespace linkstudy

@@ -10,13 +10,14 @@ namespace {
 // One segment for each interval, from the first value on.
 CurveStructure add_segments(const std::vector<double>& at, const std::vector<double>& values,
                             Mechanism& m, Parameters<double>& p) {
-  CurveStructure s{m.table_segments, m.table_segments};
+  const SegmentIndex begin(m.table_segments);
+  CurveStructure s{begin, begin};
   for (std::size_t i = 1; i < at.size(); ++i) {
     const double length = at[i] - at[i - 1];
     p.segments.push_back({at[i - 1], length, (values[i] - values[i - 1]) / length});
     ++s.end;
   }
-  m.table_segments = s.end;
+  m.table_segments = s.end.value();
   return s;
 }
 
@@ -57,18 +58,18 @@ double least_energy(const ForceCurve& curve) {
 
 }  // namespace
 
-CourseParameters<double> add_course(const Course& course, int q, CourseStructure& s, Mechanism& m,
-                                    Parameters<double>& p) {
+CourseParameters<double> add_course(const Course& course, PositionIndex q, CourseStructure& s,
+                                    Mechanism& m, Parameters<double>& p) {
   s.shape = course.shape;
   s.q = q;
   s.repeats = course.period.has_value();
   CourseParameters<double> n{course.value, 0.0, 0.0, course.period.value_or(0.0)};
   if (course.shape == CourseShape::table) {
-    const std::vector<double>& at = q < 0 ? course.times : course.positions;
+    const std::vector<double>& at = q.exists() ? course.positions : course.times;
     const CurveStructure table = add_segments(at, course.values, m, p);
     s.begin = table.begin;
     s.end = table.end;
-    if (q >= 0 && !table.is_linear()) s.bend = m.bent_springs++;
+    if (q.exists() && !table.is_linear()) s.bend = BendIndex(m.bent_springs++);
     n.value = course.values.front();
     n.origin = at.front();
     return n;

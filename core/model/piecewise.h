@@ -7,10 +7,10 @@
 
 namespace linkstudy {
 
-// The course of a load or of an actuator; appends its segments. q: index of the coordinate that it
-// goes over, or -1.
-CourseParameters<double> add_course(const Course& course, int q, CourseStructure& s, Mechanism& m,
-                                    Parameters<double>& p);
+// The course of a load or of an actuator; appends its segments. q: coordinate that it goes
+// over, or none.
+CourseParameters<double> add_course(const Course& course, PositionIndex q, CourseStructure& s,
+                                    Mechanism& m, Parameters<double>& p);
 
 // A force, of which a spring that acts on one side has what is on that side; appends its segments.
 CurveParameters<double> add_curve(const ForceCurve& curve, SpringActs acts, CurveStructure& s,

@@ -7,15 +7,15 @@
 
 namespace linkstudy {
 
-inline bool is_driven(const Mechanism& m, int velocity) {
-  return m.velocities[static_cast<std::size_t>(velocity)].motion >= 0;
+inline bool is_driven(const Mechanism& m, VelocityIndex k) {
+  return m.velocities[k].motion.exists();
 }
 
-// Velocity indices that no motion prescribes, rising.
+// Numbers of the velocities that no motion prescribes, rising: columns of dense matrices.
 inline std::vector<int> undriven_velocities(const Mechanism& m) {
   std::vector<int> undriven;
-  for (int k = 0; k < m.nv; ++k)
-    if (!is_driven(m, k)) undriven.push_back(k);
+  for (const VelocityIndex k : indices_of(m.velocities))
+    if (!is_driven(m, k)) undriven.push_back(k.value());
   return undriven;
 }
 

@@ -10,20 +10,21 @@ namespace linkstudy {
 
 // Bodies other than ground, parents first or last.
 [[gnu::always_inline]] inline auto bodies_outwards(const Mechanism& m) {
-  return indices(1, m.body_count());
+  return indices(BodyIndex(1), m.bodies.end_index());
 }
 [[gnu::always_inline]] inline auto bodies_inwards(const Mechanism& m) {
-  return indices_down(1, m.body_count());
+  return indices_down(BodyIndex(1), m.bodies.end_index());
 }
 
 // The body and all bodies between it and ground.
-[[gnu::always_inline]] inline auto bodies_to_ground(const Mechanism& m, int body) {
-  return PathRange(body, 1, [bodies = m.bodies.data()](int i) { return bodies[i].parent; });
+[[gnu::always_inline]] inline auto bodies_to_ground(const Mechanism& m, BodyIndex body) {
+  return PathRange(body, BodyIndex(1),
+                   [bodies = m.bodies.data()](BodyIndex i) { return bodies[i.value()].parent; });
 }
 
 // True if `end` is the body or lies outboard of it.
-[[gnu::always_inline]] inline bool carries(const Mechanism& m, int body, int end) {
-  while (end > body) end = at(m.bodies, end).parent;
+[[gnu::always_inline]] inline bool carries(const Mechanism& m, BodyIndex body, BodyIndex end) {
+  while (end > body) end = m.bodies[end].parent;
   return end == body;
 }
 
@@ -44,18 +45,19 @@ namespace linkstudy {
 }
 
 // Velocities of both paths of a closure, or of those of a coupling, each once, last first.
-[[gnu::always_inline]] inline std::span<const int> support_of(const Mechanism& m,
-                                                              const ClosureStructure& c) {
+[[gnu::always_inline]] inline std::span<const VelocityIndex> support_of(const Mechanism& m,
+                                                                        const ClosureStructure& c) {
   return {m.support.data() + c.support_begin, m.support.data() + c.support_end};
 }
-[[gnu::always_inline]] inline std::span<const int> support_of(const Mechanism& m,
-                                                              const CouplingStructure& c) {
+[[gnu::always_inline]] inline std::span<const VelocityIndex> support_of(
+    const Mechanism& m, const CouplingStructure& c) {
   return {m.support.data() + c.support_begin, m.support.data() + c.support_end};
 }
-[[gnu::always_inline]] inline std::span<const int> support_of_row(const Mechanism& m, int cut_row) {
-  const Row& row = at(m.cut_rows, cut_row);
-  return is_of_coupling(row.kind) ? support_of(m, at(m.couplings, row.closure))
-                                  : support_of(m, at(m.closures, row.closure));
+[[gnu::always_inline]] inline std::span<const VelocityIndex> support_of_row(const Mechanism& m,
+                                                                            RowIndex cut_row) {
+  const Row& row = m.cut_rows[cut_row];
+  return is_of_coupling(row.kind) ? support_of(m, m.couplings[row.coupling])
+                                  : support_of(m, m.closures[row.closure]);
 }
 
 // Terms of a coupling.
@@ -64,9 +66,10 @@ namespace linkstudy {
 }
 
 // Velocities whose accelerations go with that of a prescribed one.
-[[gnu::always_inline]] inline std::span<const int> support_of(const Mechanism& m,
-                                                              const MotionStructure& s) {
-  return {m.motion_support.data() + s.support_begin, m.motion_support.data() + s.support_end};
+[[gnu::always_inline]] inline std::span<const VelocityIndex> support_of(const Mechanism& m,
+                                                                        const MotionStructure& s) {
+  return {m.motion_support.data() + s.support_begin.value(),
+          m.motion_support.data() + s.support_end.value()};
 }
 
 // Contacts of a clearance.

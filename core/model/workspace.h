@@ -15,16 +15,17 @@
 
 namespace linkstudy {
 
+// Monogram notation (core/README.md): W is the ground, B the body's internal frame, P its parent's.
 // Vectors in ground axes; moments about the body's own internal origin.
 template <class Real>
 struct BodyState {
-  Mat3<Real> r;             // R_WB
-  Vec3<Real> p;             // internal origin, m
-  Vec3<Real> shift;         // p less the parent's p
-  Vec3<Real> omega;         // angular velocity
-  Vec3<Real> v;             // velocity of the origin
-  Vec3<Real> alpha;         // angular acceleration for qdd = 0, prescribed ones aside
-  Vec3<Real> a;             // acceleration of the origin then, less gravity
+  Mat3<Real> R_WB;
+  Vec3<Real> p_WB;          // m
+  Vec3<Real> p_PB_W;        // p_WB less that of the parent
+  Vec3<Real> w_WB;          // angular velocity
+  Vec3<Real> v_WB;          // velocity of the origin
+  Vec3<Real> alpha_WB;      // angular acceleration for qdd = 0, prescribed ones aside
+  Vec3<Real> a_WB;          // acceleration of the origin then, less gravity
   Inertia<Real> inertia;    // of the body and, in `composite`, of all bodies outboard
   Inertia<Real> composite;  // of bodies that carry others; else `inertia` is meant
   Wrench<Real> wrench;      // that moves the body (then: and all outboard) with qdd = 0
@@ -100,11 +101,14 @@ struct ConstantFrictionState {
   Real relaxation = Real(0.0);                                  // of its bristles, 1/s
 };
 
+template <class Real>
+using BodyStates = IndexedVector<BodyIndex, BodyState<Real>>;
+
 // Scratch and result of reactions in tree joints (core/dynamics/reactions.h).
 template <class Real>
 struct Reactions {
-  std::vector<BodyState<Real>> moving;  // (nb) bodies with their true accelerations
-  std::vector<Wrench<Real>> on_child;   // (nb), [0] the sum on ground, about its origin
+  BodyStates<Real> moving;                          // with their true accelerations
+  IndexedVector<BodyIndex, Wrench<Real>> on_child;  // [0] the sum on ground, about its origin
 };
 
 // One direction of a closure. Unit wrench: `force` on the line of action and `couple`.
@@ -121,66 +125,71 @@ struct RowState {
 // Scratch and result of core/dynamics/shared_reactions.h.
 template <class Real>
 struct SharedReactions {
-  unsigned redundant = 0;            // lanes with something to share, one bit each
-  std::vector<Wrench<Real>> change;  // (joints) of Mechanism::loop_joints
-  std::vector<Wrench<Real>> borne;   // (joints) by the multipliers
-  std::vector<Real> length;          // (joints) l, m
-  std::vector<RowState<Real>> rows;  // (rows) of Mechanism::loop_rows
-  std::vector<Real> row_scale;       // (rows) l or 1
-  std::vector<Real> jacobian;        // (rows, nv)
-  std::vector<Wrench<Real>> effect;  // (rows, joints) of a multiplier 1 on the reactions
+  unsigned redundant = 0;  // lanes with something to share, one bit each
+  IndexedVector<LoopJointIndex, Wrench<Real>> change;
+  IndexedVector<LoopJointIndex, Wrench<Real>> borne;  // by the multipliers
+  IndexedVector<LoopJointIndex, Real> length;         // l, m
+  IndexedVector<LoopRowIndex, RowState<Real>> rows;
+  IndexedVector<LoopRowIndex, Real> row_scale;  // l or 1
+  IndexedMatrix<LoopRowIndex, VelocityIndex, Real> jacobian;
+  // Of a multiplier 1 on the reactions.
+  IndexedMatrix<LoopRowIndex, LoopJointIndex, Wrench<Real>> effect;
   std::array<NullSpaceFit, RealTraits<Real>::lanes> fits;
 };
 
 template <class Real>
 struct Workspace {
-  std::vector<BodyState<Real>> bodies;  // (nb)
-  std::vector<Vec3<Real>> axes;         // (nv) axis of each velocity, ground axes
-  std::vector<ClosureState<Real>> closures;
-  std::vector<Real> mass;                // (nv, nv) lower: mass matrix, then its factor L
-  std::vector<Real> inverse_pivot;       // (nv) 1 / D
-  std::vector<Real> tau;                 // (nv) generalised forces less bias
-  std::vector<Real> y;                   // (nv) L^-T tau
-  std::vector<Real> qdd;                 // (nv); 0 where the motion is prescribed
-  std::vector<Wrench<Real>> link_loads;  // (loads) about the body's origin
-  std::vector<RowState<Real>> cut_rows;  // (nc)
-  std::vector<RowState<Real>> sde_rows;  // (ns)
-  std::vector<Real> cut_y;               // (nc, nv) L^-T J^T, by row
-  std::vector<Real> schur;               // (nc, nc) J M^-1 J^T, then its factor
-  std::vector<Real> schur_rhs;           // (nc)
-  std::vector<Real> row_inverse;         // (nc) 1 / pivot of the factor
-  std::vector<ContactState<Real>> contacts;
-  std::vector<ContactMemory<Real>> memory;
-  std::vector<PointSpringState<Real>> point_springs;
-  // (bent springs) |slope| + damping, whatever their units: at which states they limit the step.
-  std::vector<Real> spring_weights;
-  std::vector<JointFrictionState<Real>> frictions;
-  std::vector<ConstantFrictionState<Real>> constant_frictions;
-  std::vector<Real> friction_tau;               // (nv) of joints with friction
-  std::vector<Real> friction_inverse;           // of d gap / d load, negative
-  std::vector<Real> z;                          // (nz) bristles: set before an evaluation
-  std::vector<Real> z_rate;                     // (nz)
-  Reactions<Real> reactions;                    // where joints have friction
-  std::vector<CoordinateMotion<Real>> motions;  // prescribed ones, at the time of the evaluation
-  std::vector<Real> motion_mass;      // of M: prescribed coordinates beside their motion_support
-  std::vector<Real> motion_rows;      // (motions, nc) their columns of J
-  std::vector<Real> efforts;          // (motions) that they take, N or N m
-  Real supplied_power = Real(0.0);    // W
-  Real dissipated_power = Real(0.0);  // W
-  Real contact_power = Real(0.0);     // of it, in contacts
+  BodyStates<Real> bodies;
+  IndexedVector<VelocityIndex, Vec3<Real>> axes;  // of each velocity, ground axes
+  IndexedVector<ClosureIndex, ClosureState<Real>> closures;
+  // (nv, nv) lower triangle: mass matrix, then its factor L
+  IndexedMatrix<VelocityIndex, VelocityIndex, Real> mass;
+  IndexedVector<VelocityIndex, Real> inverse_pivot;    // 1 / D
+  IndexedVector<VelocityIndex, Real> tau;              // generalised forces less bias
+  IndexedVector<VelocityIndex, Real> y;                // L^-T tau
+  IndexedVector<VelocityIndex, Real> qdd;              // 0 where the motion is prescribed
+  IndexedVector<LoadIndex, Wrench<Real>> link_loads;   // about the body's origin
+  IndexedVector<RowIndex, RowState<Real>> cut_rows;    // (nc)
+  IndexedVector<RowIndex, RowState<Real>> sde_rows;    // (ns)
+  IndexedMatrix<RowIndex, VelocityIndex, Real> cut_y;  // (nc, nv) L^-T J^T, by row
+  IndexedMatrix<RowIndex, RowIndex, Real> schur;       // (nc, nc) J M^-1 J^T, then its factor
+  IndexedVector<RowIndex, Real> schur_rhs;             // (nc)
+  IndexedVector<RowIndex, Real> row_inverse;           // (nc) 1 / pivot of the factor
+  IndexedVector<ContactIndex, ContactState<Real>> contacts;
+  IndexedVector<ContactIndex, ContactMemory<Real>> memory;
+  IndexedVector<PointSpringIndex, PointSpringState<Real>> point_springs;
+  // |slope| + damping, whatever their units: at which states they limit the step.
+  IndexedVector<BendIndex, Real> spring_weights;
+  IndexedVector<FrictionIndex, JointFrictionState<Real>> frictions;
+  IndexedVector<ConstantFrictionIndex, ConstantFrictionState<Real>> constant_frictions;
+  IndexedVector<VelocityIndex, Real> friction_tau;  // of joints with friction
+  // Of d gap / d load, negative.
+  IndexedMatrix<FrictionIndex, FrictionIndex, Real> friction_inverse;
+  IndexedVector<BristleIndex, Real> z;  // set before an evaluation
+  IndexedVector<BristleIndex, Real> z_rate;
+  Reactions<Real> reactions;  // where joints have friction
+  IndexedVector<MotionIndex, CoordinateMotion<Real>>
+      motions;  // prescribed ones, at the time of the evaluation
+  // Of M: prescribed coordinates beside their motion_support.
+  IndexedVector<MotionSupportIndex, Real> motion_mass;
+  IndexedMatrix<MotionIndex, RowIndex, Real> motion_rows;  // their columns of J
+  IndexedVector<MotionIndex, Real> efforts;                // that they take, N or N m
+  Real supplied_power = Real(0.0);                         // W
+  Real dissipated_power = Real(0.0);                       // W
+  Real contact_power = Real(0.0);                          // of it, in contacts
   // Lanes whose cut rows depend on each other or nearly, so that `schur` holds no factor of theirs;
   // and the number of independent rows, in each lane its own.
   typename RealTraits<Real>::Mask redundant{};
   Real kept_rows = Real(0.0);
   unsigned jammed = 0;  // lanes whose joint friction found no balance with the reactions
   // For these lanes (core/closures/redundant_rows.h).
-  std::vector<Real> cut_jacobian;  // (nc, nv) J
-  std::vector<Real> row_scale;     // (nc) m or 1
+  IndexedMatrix<RowIndex, VelocityIndex, Real> cut_jacobian;  // (nc, nv) J
+  IndexedVector<RowIndex, Real> row_scale;                    // (nc) m or 1
   // Scratch of core/closures/clear_rows.h.
-  std::vector<Real> independence;          // (nc, nc)
-  std::vector<Real> independence_inverse;  // (nc)
-  std::vector<Real> velocity_scale;        // (nv) 1 or 1/m
-  bool rows_may_depend = true;             // false in a trace that is to hold where they do not
+  IndexedMatrix<RowIndex, RowIndex, Real> independence;  // (nc, nc)
+  IndexedVector<RowIndex, Real> independence_inverse;    // (nc)
+  IndexedVector<VelocityIndex, Real> velocity_scale;     // 1 or 1/m
+  bool rows_may_depend = true;  // false in a trace that is to hold where they do not
   RedundantSystem<Real> redundant_system;
   std::vector<SharedReactions<Real>> shared;  // one, where joint friction needs it
 };
@@ -194,10 +203,10 @@ inline void set_ground_axis(const Row& row, RowState<Real>& state) {
   state.force = row.axis == 0 ? e.x : row.axis == 1 ? e.y : e.z;
 }
 
-template <class Real>
-std::vector<RowState<Real>> make_rows(const std::vector<Row>& rows) {
-  std::vector<RowState<Real>> states(rows.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) set_ground_axis(rows[i], states[i]);
+template <class Real, class Index>
+IndexedVector<Index, RowState<Real>> make_rows(const IndexedVector<Index, Row>& rows) {
+  IndexedVector<Index, RowState<Real>> states(rows.size());
+  for (const Index r : indices_of(rows)) set_ground_axis(rows[r], states[r]);
   return states;
 }
 
@@ -213,8 +222,8 @@ std::vector<SharedReactions<Real>> make_shared_reactions(const Mechanism& m) {
   s.length.resize(joints);
   s.rows = make_rows<Real>(m.loop_rows);
   s.row_scale.resize(rows);
-  s.jacobian.resize(rows * static_cast<std::size_t>(m.nv));
-  s.effect.resize(rows * joints);
+  s.jacobian = {rows, static_cast<std::size_t>(m.nv), Real(0.0)};
+  s.effect = {rows, joints, {}};
   int counted = 0;
   for (const LoopJoint& joint : m.loop_joints) counted += joint.counts ? 6 : 0;
   for (NullSpaceFit& fit : s.fits) {
@@ -232,7 +241,7 @@ Workspace<Real> make_workspace(const Mechanism& m) {
   w.bodies.resize(m.bodies.size());
   w.axes.resize(nv);
   w.closures.resize(m.closures.size());
-  w.mass.assign(nv * nv, Real(0.0));
+  w.mass = {nv, nv, Real(0.0)};
   for (auto* x : {&w.inverse_pivot, &w.tau, &w.y, &w.qdd}) x->assign(nv, Real(0.0));
   w.link_loads.resize(m.loads.size());
   w.contacts.resize(m.contacts.size());
@@ -241,7 +250,7 @@ Workspace<Real> make_workspace(const Mechanism& m) {
   w.spring_weights.assign(static_cast<std::size_t>(m.bent_springs), Real(0.0));
   w.frictions.resize(m.frictions.size());
   w.constant_frictions.resize(m.constant_frictions.size());
-  w.friction_inverse.resize(m.frictions.size() * m.frictions.size());
+  w.friction_inverse = {m.frictions.size(), m.frictions.size(), Real(0.0)};
   w.friction_tau.assign(m.frictions.empty() ? 0 : nv, Real(0.0));
   for (auto* x : {&w.z, &w.z_rate}) x->assign(static_cast<std::size_t>(m.nz), Real(0.0));
   if (!m.frictions.empty()) {
@@ -252,12 +261,12 @@ Workspace<Real> make_workspace(const Mechanism& m) {
   w.sde_rows = make_rows<Real>(m.sde_rows);
   w.motions.resize(m.motions.size());
   w.motion_mass.assign(m.motion_support.size(), Real(0.0));
-  w.motion_rows.assign(m.motions.size() * nc, Real(0.0));
+  w.motion_rows = {m.motions.size(), nc, Real(0.0)};
   w.efforts.assign(m.motions.size(), Real(0.0));
-  w.cut_y.assign(nc * nv, Real(0.0));
-  w.schur.assign(nc * nc, Real(0.0));
-  w.cut_jacobian.assign(nc * nv, Real(0.0));
-  w.independence.assign(nc * nc, Real(0.0));
+  w.cut_y = {nc, nv, Real(0.0)};
+  w.schur = {nc, nc, Real(0.0)};
+  w.cut_jacobian = {nc, nv, Real(0.0)};
+  w.independence = {nc, nc, Real(0.0)};
   w.independence_inverse.assign(nc, Real(0.0));
   w.schur_rhs.assign(nc, Real(0.0));
   w.row_inverse.assign(nc, Real(1.0));

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "core/model/walk.h"
+
 namespace linkstudy {
 namespace {
 
@@ -125,21 +127,22 @@ int axis_of(BasicMotion motion) {
 std::string ball_text(const Channel& channel, const Stage& stage) {
   constexpr const char* kParameters[] = {"w", "x", "y", "z"};
   if (channel.quantity == Quantity::q) {
-    return std::string("Euler parameter ") + kParameters[channel.index - stage.q] +
+    return std::string("Euler parameter ") + kParameters[channel.index - stage.q.value()] +
            " of the child's joint frame in the parent's";
   }
   return std::string(channel.quantity == Quantity::v ? "angular velocity"
                                                      : "angular acceleration") +
-         " about " + kAxes[channel.index - stage.v] + " of the child's joint frame (body frame)";
+         " about " + kAxes[channel.index - stage.v.value()] +
+         " of the child's joint frame (body frame)";
 }
 
 // An axis is new where an earlier turn of the joint, about another axis, carries it.
-std::string motion_text(const Mechanism& m, int stage, int first) {
-  const BasicMotion motion = m.stages[static_cast<std::size_t>(stage)].motion;
+std::string motion_text(const Mechanism& m, StageIndex stage, StageIndex first) {
+  const BasicMotion motion = m.stages[stage].motion;
   const int axis = axis_of(motion);
   bool is_new = false;
-  for (int i = first; i < stage; ++i) {
-    const BasicMotion before = m.stages[static_cast<std::size_t>(i)].motion;
+  for (const StageIndex i : indices(first, stage)) {
+    const BasicMotion before = m.stages[i].motion;
     is_new = is_new || (turns(before) && axis_of(before) != axis);
   }
   std::string text = turns(motion) ? "turn of the child about " : "shift of the child along ";
@@ -152,10 +155,10 @@ std::string motion_text(const Mechanism& m, int stage, int first) {
 std::string coordinate_text(const Mechanism& m, const Channel& channel) {
   const bool of_position = channel.quantity == Quantity::q;
   for (const Body& body : m.bodies) {
-    for (int i = body.stage_begin; i < body.stage_end; ++i) {
-      const Stage& stage = m.stages[static_cast<std::size_t>(i)];
+    for (const StageIndex i : stages_of(body)) {
+      const Stage& stage = m.stages[i];
       const bool ball = stage.motion == BasicMotion::ball;
-      const int first = of_position ? stage.q : stage.v;
+      const int first = of_position ? stage.q.value() : stage.v.value();
       const int count = ball ? (of_position ? 4 : 3) : 1;
       if (channel.index < first || channel.index >= first + count) continue;
       if (ball) return ball_text(channel, stage);

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 
+#include "core/model/walk.h"
 #include "core/simulation/channel_kinds.h"
 
 namespace linkstudy {
 
-bool is_rotation(const Mechanism& m, int v) {
+bool is_rotation(const Mechanism& m, VelocityIndex v) {
   for (const Stage& s : m.stages) {
     if (s.motion == BasicMotion::ball && v >= s.v && v < s.v + 3) return true;
     if (s.v == v) return s.motion >= BasicMotion::rx;
@@ -22,19 +23,18 @@ class Lister {
 
   std::vector<Channel> run() {
     add("", Quantity::time, 0);
-    for (std::size_t b = 1; b < m_.bodies.size(); ++b) add_joint(static_cast<int>(b));
-    for (std::size_t i = 0; i < m_.closures.size(); ++i) {
+    for (const BodyIndex b : bodies_outwards(m_)) add_joint(b);
+    for (const ClosureIndex i : indices_of(m_.closures)) {
       const std::string name = "closure." + m_.closure_names[i];
-      const int closure = static_cast<int>(i);
-      add_vector(name, Quantity::closure_force, closure);
-      add_vector(name, Quantity::closure_torque, closure);
-      add_vector(name, Quantity::closure_gap, closure);
-      add_clearances_of(closure, name);
+      add_vector(name, Quantity::closure_force, i.value());
+      add_vector(name, Quantity::closure_torque, i.value());
+      add_vector(name, Quantity::closure_gap, i.value());
+      add_clearances_of(i, name);
     }
-    for (std::size_t i = 0; i < m_.motions.size(); ++i) add_motion(i);
-    for (std::size_t i = 0; i < m_.couplings.size(); ++i) add_coupling(i);
-    for (std::size_t i = 0; i < m_.spring_names.size(); ++i) add_spring(i);
-    for (std::size_t i = 0; i < m_.point_bodies.size(); ++i) add_point(i);
+    for (const MotionIndex i : indices_of(m_.motions)) add_motion(i);
+    for (const CouplingIndex i : indices_of(m_.couplings)) add_coupling(i);
+    for (const PointSpringIndex i : indices_of(m_.spring_names)) add_spring(i);
+    for (const PointIndex i : indices_of(m_.point_bodies)) add_point(i);
     for (const ChannelKind& kind : channel_kinds()) {
       const bool has_it = kind.quantity != Quantity::dissipated_in_contacts || !m_.contacts.empty();
       if (kind.owner == "energy" && has_it) add("energy", kind.quantity, 0);
@@ -70,31 +70,31 @@ class Lister {
     }
   }
 
-  void add_motion(std::size_t i) {
+  void add_motion(MotionIndex i) {
     const std::string name = "motion." + m_.motion_names[i];
-    const int index = static_cast<int>(i);
+    const int index = i.value();
     const bool turns = is_rotation(m_, m_.motions[i].v);
     add(name, Quantity::motion_effort, index, {.unit = turns ? "N m" : "N"});
     add(name, Quantity::motion_power, index);
   }
 
-  void add_coupling(std::size_t i) {
-    const RowKind kind = m_.cut_rows[static_cast<std::size_t>(m_.couplings[i].row)].kind;
-    add("coupling." + m_.coupling_names[i], Quantity::coupling_effort, static_cast<int>(i),
+  void add_coupling(CouplingIndex i) {
+    const RowKind kind = m_.cut_rows[m_.couplings[i].row].kind;
+    add("coupling." + m_.coupling_names[i], Quantity::coupling_effort, i.value(),
         {.unit = kind == RowKind::coupling_turn ? "N m" : "N"});
   }
 
-  void add_spring(std::size_t i) {
+  void add_spring(PointSpringIndex i) {
     const std::string name = "spring." + m_.spring_names[i];
     for (const ChannelKind& kind : channel_kinds()) {
-      if (kind.owner == "spring") add(name, kind.quantity, static_cast<int>(i));
+      if (kind.owner == "spring") add(name, kind.quantity, i.value());
     }
   }
 
-  void add_point(std::size_t i) {
+  void add_point(PointIndex i) {
     const std::string name = "point." + m_.point_names[i];
     const auto first = static_cast<std::ptrdiff_t>(channels_.size());
-    const int index = static_cast<int>(i);
+    const int index = i.value();
     add_vector(name, Quantity::point_position, index);
     add_vector(name, Quantity::point_velocity, index);
     add_vector(name, Quantity::point_acceleration, index);
@@ -108,27 +108,28 @@ class Lister {
     add(owner, quantity, begin + i, {.suffix = suffix, .unit = unit});
   }
 
-  void add_joint(int b) {
-    const Body& body = m_.bodies[static_cast<std::size_t>(b)];
-    const std::string name = "joint." + m_.joint_names[static_cast<std::size_t>(b)];
+  void add_joint(BodyIndex b) {
+    const Body& body = m_.bodies[b];
+    const std::string name = "joint." + m_.joint_names[b];
     for (int i = 0; i < body.q_count; ++i) {
       const bool pure_number = body.q_count != body.v_count && i >= body.q_count - 4;
       const char* unit = pure_number ? "" : is_rotation(m_, body.v_begin + i) ? "rad" : "m";
-      add_coordinate(name, Quantity::q, body.q_begin, i, body.q_count, unit);
+      add_coordinate(name, Quantity::q, body.q_begin.value(), i, body.q_count, unit);
     }
     for (int i = 0; i < body.v_count; ++i) {
       const bool rotation = is_rotation(m_, body.v_begin + i);
-      add_coordinate(name, Quantity::v, body.v_begin, i, body.v_count, rotation ? "rad/s" : "m/s");
+      add_coordinate(name, Quantity::v, body.v_begin.value(), i, body.v_count,
+                     rotation ? "rad/s" : "m/s");
     }
     for (int i = 0; i < body.v_count; ++i) {
       const bool rotation = is_rotation(m_, body.v_begin + i);
-      add_coordinate(name, Quantity::a, body.v_begin, i, body.v_count,
+      add_coordinate(name, Quantity::a, body.v_begin.value(), i, body.v_count,
                      rotation ? "rad/s^2" : "m/s^2");
     }
-    add_vector(name, Quantity::joint_force, b);
-    add_vector(name, Quantity::joint_torque, b);
-    add_vector(name, Quantity::joint_force_local, b);
-    add_vector(name, Quantity::joint_torque_local, b);
+    add_vector(name, Quantity::joint_force, b.value());
+    add_vector(name, Quantity::joint_torque, b.value());
+    add_vector(name, Quantity::joint_force_local, b.value());
+    add_vector(name, Quantity::joint_torque_local, b.value());
     add_stops_of(body, name);
     add_friction_of(b, name);
     add_constant_friction_of(b, name);
@@ -136,60 +137,60 @@ class Lister {
 
   void add_stops_of(const Body& body, const std::string& name) {
     for (int i = 0; i < body.v_count; ++i) {
-      const int v = body.v_begin + i;
+      const VelocityIndex v = body.v_begin + i;
       const auto is_own = [v](const StopStructure& stop) { return stop.v == v; };
       if (std::ranges::none_of(m_.stops, is_own)) continue;
-      add_coordinate(name, Quantity::stop_force, body.v_begin, i, body.v_count,
+      add_coordinate(name, Quantity::stop_force, body.v_begin.value(), i, body.v_count,
                      is_rotation(m_, v) ? "N m" : "N");
     }
   }
 
-  void add_clearances_of(int closure, const std::string& name) {
-    for (std::size_t i = 0; i < m_.clearances.size(); ++i) {
+  void add_clearances_of(ClosureIndex closure, const std::string& name) {
+    for (const ClearanceIndex i : indices_of(m_.clearances)) {
       const ClearanceStructure& c = m_.clearances[i];
       if (c.closure != closure) continue;
-      add_vector(name, Quantity::eccentricity, static_cast<int>(i), 2);
+      add_vector(name, Quantity::eccentricity, i.value(), 2);
       add_contacts(c, name, Quantity::penetration);
       add_contacts(c, name, Quantity::normal_force);
       add_contacts(c, name, Quantity::friction_force);
       add_contacts(c, name, Quantity::bristle);
-      add(name, Quantity::contact_state, static_cast<int>(i));
+      add(name, Quantity::contact_state, i.value());
     }
   }
 
   // Bristles are found by their own number; contacts without friction have none.
   void add_contacts(const ClearanceStructure& c, const std::string& name, Quantity quantity) {
-    for (int i = c.contact_begin; i < c.contact_end; ++i) {
-      const int z = m_.contacts[static_cast<std::size_t>(i)].z;
+    for (const ContactIndex i : contacts_of(c)) {
+      const BristleIndex z = m_.contacts[i].z;
       const bool rubs = quantity == Quantity::friction_force || quantity == Quantity::bristle;
-      if (rubs && z < 0) continue;
-      add(name, quantity, quantity == Quantity::bristle ? z : i,
+      if (rubs && !z.exists()) continue;
+      add(name, quantity, quantity == Quantity::bristle ? z.value() : i.value(),
           {.suffix = "." + std::to_string(i - c.contact_begin)});
     }
   }
 
-  void add_friction_of(int b, const std::string& name) {
-    for (std::size_t i = 0; i < m_.frictions.size(); ++i) {
+  void add_friction_of(BodyIndex b, const std::string& name) {
+    for (const FrictionIndex i : indices_of(m_.frictions)) {
       const JointFrictionStructure& f = m_.frictions[i];
       if (f.body != b) continue;
-      const int index = static_cast<int>(i);
-      const bool both = f.turn >= 0 && f.slide >= 0;
+      const int index = i.value();
+      const bool both = f.turn.exists() && f.slide.exists();
       const char* first = both ? ".0" : "";
       const char* second = both ? ".1" : "";
       add(name, Quantity::friction_load, index);
-      if (f.turn >= 0) {
+      if (f.turn.exists()) {
         add(name, Quantity::joint_friction, index, {.suffix = first, .unit = "N m"});
       }
-      if (f.slide >= 0) {
+      if (f.slide.exists()) {
         add(name, Quantity::joint_friction, index, {.suffix = second, .component = 1, .unit = "N"});
       }
-      add(name, Quantity::bristle, f.z, {.suffix = first});
-      if (both) add(name, Quantity::bristle, f.z + 1, {.suffix = second});
+      add(name, Quantity::bristle, f.z.value(), {.suffix = first});
+      if (both) add(name, Quantity::bristle, f.z.value() + 1, {.suffix = second});
     }
   }
 
   // Numbered through where a joint has several: forces, then bristles.
-  void add_constant_friction_of(int b, const std::string& name) {
+  void add_constant_friction_of(BodyIndex b, const std::string& name) {
     const auto& all = m_.constant_frictions;
     const auto is_own = [b](const ConstantFrictionStructure& f) { return f.body == b; };
     const auto own = std::find_if(all.begin(), all.end(), is_own);
@@ -204,7 +205,7 @@ class Lister {
           const std::string suffix = is_one ? "" : "." + std::to_string(number);
           const bool turns = f->turns && (f->count != 2 || k == 0);
           if (bends) {
-            add(name, Quantity::bristle, f->z + k, {.suffix = suffix});
+            add(name, Quantity::bristle, f->z.value() + k, {.suffix = suffix});
           } else {
             add(name, Quantity::joint_friction, index,
                 {.suffix = suffix, .component = k, .unit = turns ? "N m" : "N"});

@@ -54,12 +54,12 @@ struct Channel {
   // coordinate, body, closure, clearance, contact, bristle, friction, motion, coupling, spring,
   // point
   int index = 0;
-  int component = 0;  // 0 1 2 for x y z
-  int body = 0;       // that carries a point
+  int component = 0;             // 0 1 2 for x y z
+  BodyIndex body = kGroundBody;  // that carries a point
 };
 
 // Whether a velocity is that of a turn.
-bool is_rotation(const Mechanism& mechanism, int v);
+bool is_rotation(const Mechanism& mechanism, VelocityIndex v);
 
 // All channels of a mechanism in a fixed order, time first.
 std::vector<Channel> list_channels(const Mechanism& mechanism);

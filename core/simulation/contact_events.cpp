@@ -65,7 +65,7 @@ std::optional<ContactEvent> ContactEvents::find(double t0, double t1,
     touching_ = phases[contact_].touching;
     const std::optional<double> t = first_crossing(
         sample(t0, begin[contact_]), sample(t1, end[contact_]), phases[contact_].fresh, 1);
-    if (t && (!first || *t < first->t)) first = ContactEvent{static_cast<int>(contact_), *t};
+    if (t && (!first || *t < first->t)) first = ContactEvent{ContactIndex(contact_), *t};
   }
   return first;
 }

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "core/model/indices.h"
 #include "core/simulation/nearness.h"
 
 namespace linkstudy {
@@ -20,7 +21,7 @@ struct ContactPhase {
 };
 
 struct ContactEvent {
-  int contact;
+  ContactIndex contact;
   double t;
 };
 

@@ -5,6 +5,7 @@
 
 #include "core/forces/end_stops.h"
 #include "core/model/contact_of.h"
+#include "core/model/walk.h"
 #include "core/numerics/bracketed_root.h"
 #include "core/simulation/channels.h"
 
@@ -34,7 +35,7 @@ double deepest_of(const NearnessSpan& span) {
 }
 
 std::string joint_of_stop(const Mechanism& m, const StopStructure& stop) {
-  for (std::size_t b = 1; b < m.bodies.size(); ++b) {
+  for (const BodyIndex b : bodies_outwards(m)) {
     const Body& body = m.bodies[b];
     const int i = stop.v - body.v_begin;
     if (i < 0 || i >= body.v_count) continue;
@@ -46,25 +47,28 @@ std::string joint_of_stop(const Mechanism& m, const StopStructure& stop) {
 
 }  // namespace
 
-std::vector<ContactPlace> contact_places(const Mechanism& m) {
-  std::vector<ContactPlace> places(m.contacts.size());
+IndexedVector<ContactIndex, ContactPlace> contact_places(const Mechanism& m) {
+  IndexedVector<ContactIndex, ContactPlace> places(m.contacts.size());
   for (const ClearanceStructure& c : m.clearances) {
-    const std::string owner = "closure." + m.closure_names[static_cast<std::size_t>(c.closure)];
-    for (int i = c.contact_begin; i < c.contact_end; ++i) {
-      places[static_cast<std::size_t>(i)] = {owner, std::to_string(i - c.contact_begin)};
+    const std::string owner = "closure." + m.closure_names[c.closure];
+    for (const ContactIndex i : contacts_of(c)) {
+      places[i] = {owner, std::to_string(i - c.contact_begin)};
     }
   }
   for (const StopStructure& stop : m.stops) {
-    places[static_cast<std::size_t>(stop.contact)] = {
-        joint_of_stop(m, stop), stop.is_high ? "high" : "low", is_rotation(m, stop.v)};
+    places[stop.contact] = {joint_of_stop(m, stop), stop.is_high ? "high" : "low",
+                            is_rotation(m, stop.v)};
   }
   return places;
 }
 
 ContactRecorder::ContactRecorder(const Mechanism& mechanism, const Parameters<double>& parameters,
                                  ContactList& list)
-    : m_(mechanism), p_(parameters), list_(list), current_(mechanism.contacts.size()) {
-  for (const ContactPlace& place : contact_places(mechanism)) turns_.push_back(place.turns);
+    : m_(mechanism),
+      p_(parameters),
+      list_(list),
+      places_(contact_places(mechanism)),
+      current_(mechanism.contacts.size()) {
   list_.records.reserve(list_.most);  // none while stepping
 }
 
@@ -83,18 +87,18 @@ void ContactRecorder::step(const ContactStep& s) {
   end(s.contact, span.time_at(crossing), -there.rate);
 }
 
-void ContactRecorder::start_inside(int contact) {
+void ContactRecorder::start_inside(ContactIndex contact) {
   open(contact, {});
 }
 
-void ContactRecorder::begin(int contact, double t, double speed) {
+void ContactRecorder::begin(ContactIndex contact, double t, double speed) {
   ContactRecord record;
   record.begin = t;
   record.approach = std::max(speed, 0.0);
   open(contact, record);
 }
 
-void ContactRecorder::open(int contact, ContactRecord record) {
+void ContactRecorder::open(ContactIndex contact, ContactRecord record) {
   record.contact = contact;
   record.number = begun_++;
   if (list_.records.size() < list_.most) {
@@ -102,45 +106,45 @@ void ContactRecorder::open(int contact, ContactRecord record) {
   } else {
     ++list_.unlisted;
   }
-  at(current_, contact) = record;
+  current_[contact] = record;
 }
 
-double ContactRecorder::force(int contact, const Nearness& now, double approach) const {
-  const ContactStructure& c = at(m_.contacts, contact);
-  if (c.stop >= 0) {
-    return stop_force(at(m_.stops, c.stop), at(p_.stops, c.stop), now.depth, now.rate, approach)
-        .normal;
+double ContactRecorder::force(ContactIndex contact, const Nearness& now, double approach) const {
+  const ContactStructure& c = m_.contacts[contact];
+  if (c.stop.exists()) {
+    return stop_force(m_.stops[c.stop], p_.stops[c.stop], now.depth, now.rate, approach).normal;
   }
-  const ClearanceStructure& clearance = at(m_.clearances, c.clearance);
-  return normal_contact_force(at(p_.clearances, c.clearance).contact, clearance.hertz, now.depth,
+  const ClearanceStructure& clearance = m_.clearances[c.clearance];
+  return normal_contact_force(p_.clearances[c.clearance].contact, clearance.hertz, now.depth,
                               now.rate, approach, clearance.approach)
       .normal;
 }
 
 // The largest force lies near the largest of some, where the parabola through it and its
 // neighbours has its vertex.
-void ContactRecorder::follow(int contact, const NearnessSpan& span, double approach) {
-  ContactRecord& record = at(current_, contact);
+void ContactRecorder::follow(ContactIndex contact, const NearnessSpan& span, double approach) {
+  ContactRecord& record = current_[contact];
   record.depth = std::max(record.depth, deepest_of(span));
   const auto force_at = [&](double s) { return force(contact, span.at(s), approach); };
   std::array<double, kParts + 1> forces{force_at(0.0)};
   forces.back() = force_at(1.0);
   if (std::max(forces.front(), forces.back()) < kFarBelow * record.force) return note(record);
-  for (int k = 1; k < kParts; ++k) at(forces, k) = force_at(k / static_cast<double>(kParts));
+  for (std::size_t k = 1; k < kParts; ++k) forces[k] = force_at(static_cast<double>(k) / kParts);
   const auto largest = std::ranges::max_element(forces);
-  const int middle = std::clamp(static_cast<int>(largest - forces.begin()), 1, kParts - 1);
-  const double before = at(forces, middle - 1), after = at(forces, middle + 1);
-  const double bend = before - 2.0 * at(forces, middle) + after;
+  const auto place = static_cast<std::size_t>(largest - forces.begin());
+  const std::size_t middle = std::clamp<std::size_t>(place, 1, kParts - 1);
+  const double before = forces[middle - 1], after = forces[middle + 1];
+  const double bend = before - 2.0 * forces[middle] + after;
   record.force = std::max(record.force, *largest);
   if (bend < 0.0) {
-    const double vertex = (middle + 0.5 * (before - after) / bend) / kParts;
+    const double vertex = (static_cast<double>(middle) + 0.5 * (before - after) / bend) / kParts;
     record.force = std::max(record.force, force_at(std::clamp(vertex, 0.0, 1.0)));
   }
   note(record);
 }
 
-void ContactRecorder::end(int contact, double t, double speed) {
-  ContactRecord& record = at(current_, contact);
+void ContactRecorder::end(ContactIndex contact, double t, double speed) {
+  ContactRecord& record = current_[contact];
   record.end = t;
   record.separation = std::max(speed, 0.0);
   note(record);
@@ -149,7 +153,7 @@ void ContactRecorder::end(int contact, double t, double speed) {
 void ContactRecorder::note(const ContactRecord& record) {
   const auto number = static_cast<std::size_t>(record.number);
   if (number < list_.records.size()) list_.records[number] = record;
-  auto& hardest = list_.hardest[turns_[static_cast<std::size_t>(record.contact)] ? 1 : 0];
+  auto& hardest = list_.hardest[places_[record.contact].turns ? 1 : 0];
   const bool is_it = hardest && hardest->number == record.number;
   if (is_it || !hardest || record.force > hardest->force) hardest = record;
 }

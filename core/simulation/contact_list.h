@@ -24,8 +24,7 @@ struct ContactPlace {
   bool turns = false;  // depths are angles
 };
 
-// By contact.
-std::vector<ContactPlace> contact_places(const Mechanism& mechanism);
+IndexedVector<ContactIndex, ContactPlace> contact_places(const Mechanism& mechanism);
 
 class ContactRecorder {
  public:
@@ -38,21 +37,21 @@ class ContactRecorder {
 
   // The same of steps that begin and end with contacts. Speeds are positive into the contact at its
   // begin and out of it at its end.
-  void start_inside(int contact);
-  void begin(int contact, double t, double speed);
-  void follow(int contact, const NearnessSpan& span, double approach);
-  void end(int contact, double t, double speed);
+  void start_inside(ContactIndex contact);
+  void begin(ContactIndex contact, double t, double speed);
+  void follow(ContactIndex contact, const NearnessSpan& span, double approach);
+  void end(ContactIndex contact, double t, double speed);
 
  private:
-  double force(int contact, const Nearness& at, double approach) const;
-  void open(int contact, ContactRecord record);
+  double force(ContactIndex contact, const Nearness& at, double approach) const;
+  void open(ContactIndex contact, ContactRecord record);
   void note(const ContactRecord& record);
 
   const Mechanism& m_;
   const Parameters<double>& p_;
   ContactList& list_;
-  std::vector<bool> turns_;             // by contact
-  std::vector<ContactRecord> current_;  // likewise
+  IndexedVector<ContactIndex, ContactPlace> places_;
+  IndexedVector<ContactIndex, ContactRecord> current_;
   long begun_ = 0;
 };
 

@@ -14,15 +14,16 @@ template <class Real, class F>
 inline void for_nearness(const Mechanism& m, const Parameters<Real>& p, const Real* y,
                          Workspace<Real>& w, F&& f) {
   update_kinematics(m, p, y, y + m.nq, w);
-  for_journals(m, p, w, [&](int c, const JournalInBearing<Real>& j) {
-    for (const int i : contacts_of(at(m.clearances, c))) {
-      const auto k = contact_geometry(j, at(m.contacts, i), at(p.clearances, c));
+  for_journals(m, p, w, [&](ClearanceIndex c, const JournalInBearing<Real>& j) {
+    for (const ContactIndex i : contacts_of(m.clearances[c])) {
+      const auto k = contact_geometry(j, m.contacts[i], p.clearances[c]);
       f(i, k.depth, k.rate);
     }
   });
-  for (const int i : indices_of(m.stops)) {
-    const StopStructure& s = at(m.stops, i);
-    f(s.contact, stop_depth(s, at(p.stops, i), y), towards_stop(s, y[m.nq + s.v]));
+  for (const StopIndex i : indices_of(m.stops)) {
+    const StopStructure& s = m.stops[i];
+    f(s.contact, stop_depth(s, p.stops[i], y),
+      towards_stop(s, Velocities<const Real>(y + m.nq)[s.v]));
   }
 }
 

@@ -7,13 +7,15 @@
 #include <optional>
 #include <vector>
 
+#include "core/model/indices.h"
+
 namespace linkstudy {
 
 // One contact. SI units; of joints that turn rad, rad/s and N m. What was not seen is not a number:
 // begin and approach of a contact that is there at the start, end and separation of one that is
 // there when the run ends.
 struct ContactRecord {
-  int contact = 0;  // of Mechanism::contacts
+  ContactIndex contact{};
   long number = 0;  // in the order in which they begin, from 0
   double begin = std::numeric_limits<double>::quiet_NaN();       // s
   double end = std::numeric_limits<double>::quiet_NaN();         // s

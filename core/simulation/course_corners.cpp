@@ -11,7 +11,7 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kSameTime = 1e-12;   // relative; more than what courses take for rounding
 constexpr double kNearCorner = 1e-3;  // of the length of a table
 
-int velocity_of(const Mechanism& m, int q) {
+VelocityIndex velocity_of(const Mechanism& m, PositionIndex q) {
   const auto stage =
       std::find_if(m.stages.begin(), m.stages.end(), [q](const Stage& s) { return s.q == q; });
   return stage->v;
@@ -20,10 +20,10 @@ int velocity_of(const Mechanism& m, int q) {
 }  // namespace
 
 CourseCorners::CourseCorners(const Mechanism& m, const Parameters<double>& p) {
-  for (std::size_t i = 0; i < m.loads.size(); ++i) {
+  for (const LoadIndex i : indices_of(m.loads)) {
     if (m.loads[i].type != LoadType::resistance) add(m, p, m.loads[i].course, p.loads[i].course);
   }
-  for (std::size_t i = 0; i < m.point_springs.size(); ++i) {
+  for (const PointSpringIndex i : indices_of(m.point_springs)) {
     if (!m.point_springs[i].is_driven) continue;
     add(m, p, m.point_springs[i].course, p.point_springs[i].course);
   }
@@ -32,14 +32,17 @@ CourseCorners::CourseCorners(const Mechanism& m, const Parameters<double>& p) {
 void CourseCorners::add(const Mechanism& m, const Parameters<double>& p, const CourseStructure& s,
                         const CourseParameters<double>& n) {
   if (s.shape != CourseShape::table && !s.repeats) return;
-  Corners c{{n.origin}, s.repeats ? n.period : 0.0, s.q, s.q < 0 ? -1 : velocity_of(m, s.q)};
-  for (int i = s.begin; i < s.end; ++i) {
-    const SegmentParameters<double>& segment = p.segments[static_cast<std::size_t>(i)];
+  Corners c{{n.origin},
+            s.repeats ? n.period : 0.0,
+            s.q,
+            s.q.exists() ? velocity_of(m, s.q) : VelocityIndex()};
+  for (const SegmentIndex i : indices(s.begin, s.end)) {
+    const SegmentParameters<double>& segment = p.segments[i];
     c.at.push_back(segment.begin + segment.length);
   }
   if (n.rate > 0.0) c.at.push_back(1.0 / n.rate);
   if (s.shape == CourseShape::table && s.begin == s.end) return;
-  (s.q < 0 ? in_time_ : over_coordinates_).push_back(std::move(c));
+  (s.q.exists() ? over_coordinates_ : in_time_).push_back(std::move(c));
 }
 
 // To the next corner on one side that is farther away than `least`.
@@ -69,7 +72,8 @@ double CourseCorners::before(double corner) {
   return std::isinf(corner) ? corner : corner - kSameTime * std::abs(corner);
 }
 
-double CourseCorners::way_ahead(const double* q, const double* v, const double* a) const {
+double CourseCorners::way_ahead(Positions<const double> q, Velocities<const double> v,
+                                Velocities<const double> a) const {
   double longest = kNever;
   for (const Corners& c : over_coordinates_) {
     const double least = kNearCorner * (c.at.back() - c.at.front());

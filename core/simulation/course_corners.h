@@ -21,13 +21,15 @@ class CourseCorners {
   bool any_over_coordinates() const { return !over_coordinates_.empty(); }
   // Time in which no coordinate with a table reaches the next of its corners, at these rates (nv)
   // and accelerations, or infinity. Corners nearer than a thousandth of the table are passed.
-  double way_ahead(const double* q, const double* v, const double* a) const;
+  double way_ahead(Positions<const double> q, Velocities<const double> v,
+                   Velocities<const double> a) const;
 
  private:
   struct Corners {
     std::vector<double> at;  // of the first period, increasing: s, rad or m
     double period = 0.0;     // 0: none
-    int q = -1, v = -1;      // of a coordinate
+    PositionIndex q{};       // of a coordinate
+    VelocityIndex v{};
   };
 
   void add(const Mechanism& m, const Parameters<double>& p, const CourseStructure& s,

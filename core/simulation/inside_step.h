@@ -65,7 +65,7 @@ class InsideStep {
     now_.set_initial_energy(initial_energy_);
     const Energy<Real> e = now_.energy();
     energies_ = {e.kinetic, e.height, e.elastic, now_.supplied(), now_.dissipated()};
-    for (const int i : indices_of(samples_)) at(samples_, i) = now_.sample(observed_[i]);
+    for (const int i : indices_of(samples_)) samples_[i] = now_.sample(observed_[i]);
   }
 
  private:

@@ -42,48 +42,48 @@ class Instant {
       case Quantity::v:
         return y_[m_.nq + c.index];
       case Quantity::a:
-        return acceleration(c.index);
+        return acceleration(VelocityIndex(c.index));
       case Quantity::joint_force:
       case Quantity::joint_torque:
       case Quantity::joint_force_local:
       case Quantity::joint_torque_local:
         return reaction(c);
       case Quantity::closure_force:
-        return component(closure_wrench(c.index).force, c.component);
+        return component(closure_wrench(ClosureIndex(c.index)).force, c.component);
       case Quantity::closure_torque:
-        return component(closure_wrench(c.index).torque, c.component);
+        return component(closure_wrench(ClosureIndex(c.index)).torque, c.component);
       case Quantity::closure_gap:
-        return component(gap(c.index), c.component);
+        return component(gap(ClosureIndex(c.index)), c.component);
       case Quantity::eccentricity:
         return eccentricity(c);
       case Quantity::penetration:
-        return max(at(w_.contacts, c.index).depth, Real(0.0));
+        return max(w_.contacts[ContactIndex(c.index)].depth, Real(0.0));
       case Quantity::normal_force:
-        return at(w_.contacts, c.index).normal;
+        return w_.contacts[ContactIndex(c.index)].normal;
       case Quantity::friction_force:
-        return at(w_.contacts, c.index).friction;
+        return w_.contacts[ContactIndex(c.index)].friction;
       case Quantity::bristle:
         return y_[m_.nq + m_.nv + c.index];
       case Quantity::contact_state:
-        return contact_state(c.index);
+        return contact_state(ClearanceIndex(c.index));
       case Quantity::friction_load:
-        return at(w_.frictions, c.index).load;
+        return w_.frictions[FrictionIndex(c.index)].load;
       case Quantity::joint_friction:
         return friction(c);
       case Quantity::motion_effort:
-        return at(w_.efforts, c.index);
+        return w_.efforts[MotionIndex(c.index)];
       case Quantity::coupling_effort:
-        return -at(w_.cut_rows, at(m_.couplings, c.index).row).value;
+        return -w_.cut_rows[m_.couplings[CouplingIndex(c.index)].row].value;
       case Quantity::motion_power:
-        return at(w_.efforts, c.index) * at(w_.motions, c.index).v;
+        return w_.efforts[MotionIndex(c.index)] * w_.motions[MotionIndex(c.index)].v;
       case Quantity::stop_force:
-        return stop_force_on(c.index);
+        return stop_force_on(VelocityIndex(c.index));
       case Quantity::spring_length:
-        return at(w_.point_springs, c.index).length;
+        return w_.point_springs[PointSpringIndex(c.index)].length;
       case Quantity::spring_rate:
-        return at(w_.point_springs, c.index).rate;
+        return w_.point_springs[PointSpringIndex(c.index)].rate;
       case Quantity::spring_force:
-        return at(w_.point_springs, c.index).force;
+        return w_.point_springs[PointSpringIndex(c.index)].force;
       case Quantity::point_position:
       case Quantity::point_velocity:
       case Quantity::point_acceleration:
@@ -107,30 +107,31 @@ class Instant {
   }
 
  private:
-  Real acceleration(int k) const {
-    const int motion = at(m_.velocities, k).motion;
-    return motion >= 0 ? at(w_.motions, motion).a : at(w_.qdd, k);
+  Real acceleration(VelocityIndex k) const {
+    const MotionIndex motion = m_.velocities[k].motion;
+    return motion.exists() ? w_.motions[motion].a : w_.qdd[k];
   }
 
-  ClosureWrench<Real> own_closure_wrench(int c) const {
-    return compute_closure_wrench(at(m_.closures, c), at(w_.closures, c));
+  ClosureWrench<Real> own_closure_wrench(ClosureIndex c) const {
+    return compute_closure_wrench(m_.closures[c], w_.closures[c]);
   }
 
   // Those under a constant load come behind the others.
   Real friction(const Channel& c) const {
     const int constant = c.index - m_.friction_count();
     if (constant >= 0) {
-      return at(w_.constant_frictions, constant).effort[static_cast<std::size_t>(c.component)];
+      return w_.constant_frictions[ConstantFrictionIndex(constant)]
+          .effort[static_cast<std::size_t>(c.component)];
     }
-    const JointFrictionState<Real>& x = at(w_.frictions, c.index);
+    const JointFrictionState<Real>& x = w_.frictions[FrictionIndex(c.index)];
     return c.component == 0 ? x.on_turn : x.on_slide;
   }
 
-  Vec3<Real> gap(int c) const {
-    return closure_gap(at(m_.closures, c), at(p_.closures, c), at(w_.closures, c));
+  Vec3<Real> gap(ClosureIndex c) const {
+    return closure_gap(m_.closures[c], p_.closures[c], w_.closures[c]);
   }
 
-  ClosureWrench<Real> closure_wrench(int c) {
+  ClosureWrench<Real> closure_wrench(ClosureIndex c) {
     ClosureWrench<Real> f = own_closure_wrench(c);
     if (shared_.empty()) return f;
     update_all_reactions();
@@ -140,20 +141,20 @@ class Instant {
 
   // Along y or z of the bearing's frame, in the middle of the bearing.
   Real eccentricity(const Channel& c) const {
-    const ClearanceStructure& s = at(m_.clearances, c.index);
-    const ClosureState<Real>& x = at(w_.closures, s.closure);
+    const ClearanceStructure& s = m_.clearances[ClearanceIndex(c.index)];
+    const ClosureState<Real>& x = w_.closures[s.closure];
     const Mat3<Real>& frame = s.bearing_first ? x.r1 : x.r2;
-    Vec3<Real> e = at(w_.contacts, s.contact_begin).eccentricity;
-    const int last = s.contact_end - 1;
-    if (last > s.contact_begin) e = Real(0.5) * (e + at(w_.contacts, last).eccentricity);
+    Vec3<Real> e = w_.contacts[s.contact_begin].eccentricity;
+    const ContactIndex last = s.contact_end - 1;
+    if (last > s.contact_begin) e = Real(0.5) * (e + w_.contacts[last].eccentricity);
     return dot(c.component == 0 ? frame.y : frame.z, e);
   }
 
   // 0 free flight, 1 one point, 2 two points on opposite sides, 3 a line (parallel axes: always).
-  Real contact_state(int clearance) const {
-    const ClearanceStructure& s = at(m_.clearances, clearance);
-    const ContactState<Real>& a = at(w_.contacts, s.contact_begin);
-    const ContactState<Real>& b = at(w_.contacts, s.contact_end - 1);
+  Real contact_state(ClearanceIndex clearance) const {
+    const ClearanceStructure& s = m_.clearances[clearance];
+    const ContactState<Real>& a = w_.contacts[s.contact_begin];
+    const ContactState<Real>& b = w_.contacts[s.contact_end - 1];
     const Real none(0.0), one(1.0), two(2.0), line(3.0);
     const auto touches_a = a.depth > none, touches_b = b.depth > none;
     const auto same_side = dot(a.eccentricity, b.eccentricity) > none;
@@ -162,10 +163,10 @@ class Instant {
   }
 
   // Of both ends of a coordinate.
-  Real stop_force_on(int v) const {
+  Real stop_force_on(VelocityIndex v) const {
     Real force(0.0);
     for (const StopStructure& s : m_.stops) {
-      if (s.v == v) force = force - towards_stop(s, at(w_.contacts, s.contact).normal);
+      if (s.v == v) force = force - towards_stop(s, w_.contacts[s.contact].normal);
     }
     return force;
   }
@@ -188,13 +189,13 @@ class Instant {
   }
 
   Vec3<Real> point(const Channel& c) {
-    const Vec3<Real>& at_body = at(p_.points, c.index);
-    const BodyState<Real>& body = at(w_.bodies, c.body);
+    const Vec3<Real>& at_body = p_.points[PointIndex(c.index)];
+    const BodyState<Real>& body = w_.bodies[c.body];
     if (c.quantity == Quantity::point_position) return point_position(body, at_body);
     if (c.quantity == Quantity::point_velocity) return point_velocity(body, at_body);
     if (!has_accelerations_) update_body_accelerations(m_, p_, w_, reactions_.moving);
     has_accelerations_ = true;
-    return point_acceleration(at(reactions_.moving, c.body), p_.gravity, at_body);
+    return point_acceleration(reactions_.moving[c.body], p_.gravity, at_body);
   }
 
   void update_all_reactions() {
@@ -209,14 +210,14 @@ class Instant {
 
   Real reaction(const Channel& c) {
     update_all_reactions();
-    const BodyState<Real>& b = at(w_.bodies, c.index);
-    const Wrench<Real>& f = at(reactions_.on_child, c.index);
+    const BodyState<Real>& b = w_.bodies[BodyIndex(c.index)];
+    const Wrench<Real>& f = reactions_.on_child[BodyIndex(c.index)];
     const bool force =
         c.quantity == Quantity::joint_force || c.quantity == Quantity::joint_force_local;
     const bool local =
         c.quantity == Quantity::joint_force_local || c.quantity == Quantity::joint_torque_local;
     const Vec3<Real>& ground = force ? f.force : f.moment;
-    return component(local ? transpose_times(b.r, ground) : ground, c.component);
+    return component(local ? transpose_times(b.R_WB, ground) : ground, c.component);
   }
 
   const Mechanism& m_;

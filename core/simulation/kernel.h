@@ -17,7 +17,7 @@ class ContactRecorder;
 
 // One contact at an accepted state and the one before it.
 struct ContactStep {
-  int contact;
+  ContactIndex contact;
   double t0, t1;  // s
   double depth0, rate0, depth1, rate1;
   double approach;        // its speed of approach, m/s or rad/s

@@ -18,7 +18,7 @@ bool any_touching(const std::vector<ContactPhase>& phases) {
 
 }  // namespace
 
-void LocatedRun::set_memory(std::size_t i, double rate) {
+void LocatedRun::set_memory(ContactIndex i, double rate) {
   const bool touching = phases_[i].touching;
   w_.memory[i] = {begin_[i].depth, rate, touching ? 1.0 : 0.0, touching ? std::fabs(rate) : 0.0,
                   touching ? 0.0 : kOpen};
@@ -57,10 +57,9 @@ void LocatedRun::follow_contacts() {
       const auto from = part == 4 ? end_.begin() : quarters_.begin() + (part - 1) * count;
       std::copy_n(from, count, after_.begin());
     }
-    for (std::size_t i = 0; i < phases_.size(); ++i) {
+    for (const ContactIndex i : indices_of(phases_)) {
       if (!phases_[i].touching) continue;
-      case_.contacts->follow(static_cast<int>(i), {t, next, before_[i], after_[i]},
-                             w_.memory[i].approach);
+      case_.contacts->follow(i, {t, next, before_[i], after_[i]}, w_.memory[i].approach);
     }
     before_.swap(after_);
     t = next;
@@ -70,7 +69,7 @@ void LocatedRun::follow_contacts() {
 void LocatedRun::count_step() {
   const double length = integrator_->t() - integrator_->t_old();
   bool touching = false;
-  for (std::size_t i = 0; i < phases_.size(); ++i) {
+  for (const ContactIndex i : indices_of(phases_)) {
     if (!phases_[i].touching) continue;
     touching = true;
     touches_[i].steps += 1.0;
@@ -80,7 +79,7 @@ void LocatedRun::count_step() {
 }
 
 void LocatedRun::restart_at(const ContactEvent& event) {
-  const auto i = static_cast<std::size_t>(event.contact);
+  const ContactIndex i = event.contact;
   value_at(event.t, y_.data());
   time_ = event.t;
   settle(time_, y_.data());
@@ -96,26 +95,26 @@ void LocatedRun::restart_at(const ContactEvent& event) {
   integrator_->start(event.t, y_.data(), first_step(i));
 }
 
-void LocatedRun::begin_contact(std::size_t i) {
+void LocatedRun::begin_contact(ContactIndex i) {
   log_.begun += 1.0;
   touches_[i].steps = 0.0;
   ContactRecorder* recorder = case_.contacts;
-  if (recorder != nullptr) recorder->begin(static_cast<int>(i), time_, begin_[i].rate);
+  if (recorder != nullptr) recorder->begin(i, time_, begin_[i].rate);
   if (++begun_in_interval_ > kMostContacts) fail(Cause::contact_budget);
 }
 
-void LocatedRun::end_contact(std::size_t i) {
+void LocatedRun::end_contact(ContactIndex i) {
   log_.least_steps = std::min(log_.least_steps, touches_[i].steps);
   ContactRecorder* recorder = case_.contacts;
-  if (recorder != nullptr) recorder->end(static_cast<int>(i), time_, -begin_[i].rate);
+  if (recorder != nullptr) recorder->end(i, time_, -begin_[i].rate);
   const ContactStructure& contact = m_.contacts[i];
   const bool resets =
-      contact.z >= 0 && at(m_.clearances, contact.clearance).free_bristle == FreeBristle::reset;
-  if (resets) y_[static_cast<std::size_t>(m_.nq + m_.nv + contact.z)] = 0.0;
+      contact.z.exists() && m_.clearances[contact.clearance].free_bristle == FreeBristle::reset;
+  if (resets) y_[static_cast<std::size_t>(m_.nq + m_.nv + contact.z.value())] = 0.0;
 }
 
 // 0 where the integrator must find it.
-double LocatedRun::first_step(std::size_t i) const {
+double LocatedRun::first_step(ContactIndex i) const {
   if (phases_[i].touching) return touches_[i].first_step;
   return any_touching(phases_) ? integrator_->next_step() : free_step_;
 }

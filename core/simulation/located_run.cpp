@@ -132,7 +132,7 @@ bool LocatedRun::differentiate_exactly(double t, const double* y, double* column
   all.leftCols(n - 2) = derivative_->matrix();
   all.rightCols(2).setZero();
   for (const MotionStructure& motion : m_.motions) {
-    for (const int k : {motion.q, m_.nq + motion.v}) {
+    for (const int k : {motion.q.value(), m_.nq + motion.v.value()}) {
       all.row(k).setZero();
       all.col(k).setZero();
     }
@@ -155,8 +155,8 @@ void LocatedRun::fail(Cause cause) {
 // Positions and rates only.
 void LocatedRun::look_at(const double* y, Nearness* contacts) {
   ++looks_;
-  for_nearness(m_, p_, y, look_w_, [contacts](int i, double depth, double rate) {
-    contacts[i] = {depth, rate};
+  for_nearness(m_, p_, y, look_w_, [contacts](ContactIndex i, double depth, double rate) {
+    contacts[i.value()] = {depth, rate};
   });
 }
 
@@ -188,12 +188,12 @@ void LocatedRun::settle(double t, double* y) {
 
 void LocatedRun::begin() {
   look_at(y_.data(), begin_.data());
-  for (std::size_t i = 0; i < phases_.size(); ++i) {
+  for (const ContactIndex i : indices_of(phases_)) {
     phases_[i] = {begin_[i].depth > 0.0, begin_[i].depth == 0.0};
     set_memory(i, begin_[i].rate);
     if (!phases_[i].touching) continue;
     log_.begun += 1.0;
-    if (case_.contacts != nullptr) case_.contacts->start_inside(static_cast<int>(i));
+    if (case_.contacts != nullptr) case_.contacts->start_inside(i);
   }
   time_ = setting_.t0;
   observe_grid(0, y_.data());
@@ -349,7 +349,8 @@ void LocatedRun::take_instant() {
   if (cause_) return;
   frame_->get(lane_, slots.samples, static_cast<int>(samples_.size()), samples_.data());
   observers_.observe(step_, [this](int observer, std::size_t i, const Channel&) {
-    return samples_[static_cast<std::size_t>(at(frame_->observed().first(), observer)) + i];
+    const int first = frame_->observed().first()[static_cast<std::size_t>(observer)];
+    return samples_[static_cast<std::size_t>(first) + i];
   });
   go_on();
 }
@@ -380,14 +381,13 @@ void LocatedRun::accept() {
     if (frame_ != nullptr) drift_ = frame_->get(lane_, frame_->slots().drift);
   }
   begin_.swap(end_);
-  for (std::size_t i = 0; i < phases_.size(); ++i) {
+  for (const ContactIndex i : indices_of(phases_)) {
     phases_[i].fresh = false;
     if (!phases_[i].touching) continue;
     ContactMemory<double>& memory = w_.memory[i];
     // The force at this state is the same before and after: its law takes the larger speed
     // anyway.
-    memory.approach = dividing_speed(approach_of_contact(m_, static_cast<int>(i)), memory.approach,
-                                     begin_[i].rate);
+    memory.approach = dividing_speed(approach_of_contact(m_, i), memory.approach, begin_[i].rate);
   }
 }
 

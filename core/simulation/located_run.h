@@ -110,10 +110,10 @@ class LocatedRun {
   void accept();
   void accept_settled();
   void restart_at(const ContactEvent& event);
-  void set_memory(std::size_t i, double rate);
-  void begin_contact(std::size_t i);
-  void end_contact(std::size_t i);
-  double first_step(std::size_t i) const;
+  void set_memory(ContactIndex i, double rate);
+  void begin_contact(ContactIndex i);
+  void end_contact(ContactIndex i);
+  double first_step(ContactIndex i) const;
   void check_drift();
   void check_motion(const double* y, const Workspace<double>& w);
 
@@ -141,15 +141,15 @@ class LocatedRun {
   DormandPrince* explicit_ = nullptr;  // the same, of explicit runs
   bool knows_inside_ = false;          // what the trial says between its ends has been read
   ContactEvents events_;
-  std::vector<ContactPhase> phases_;
-  std::vector<Touch> touches_;
-  std::vector<Nearness> begin_, end_;     // of the step
-  std::vector<Nearness> quarters_;        // of explicit steps, three times all contacts
-  std::vector<Nearness> before_, after_;  // of a part of it
-  std::optional<ContactEvent> event_;     // in the step
-  double reached_ = 0.0;                  // the time it is followed to
-  std::optional<double> drift_;           // at y_, where it is known
-  std::vector<double> samples_;           // of channels that lanes give
+  IndexedVector<ContactIndex, ContactPhase> phases_;
+  IndexedVector<ContactIndex, Touch> touches_;
+  IndexedVector<ContactIndex, Nearness> begin_, end_;  // of the step
+  std::vector<Nearness> quarters_;  // of explicit steps, three times all contacts
+  IndexedVector<ContactIndex, Nearness> before_, after_;  // of a part of it
+  std::optional<ContactEvent> event_;                     // in the step
+  double reached_ = 0.0;                                  // the time it is followed to
+  std::optional<double> drift_;                           // at y_, where it is known
+  std::vector<double> samples_;                           // of channels that lanes give
   Wants wants_ = Wants::trial;
   std::optional<Cause> cause_;
   bool is_over_ = false;

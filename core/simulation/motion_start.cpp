@@ -59,8 +59,8 @@ std::string overdriven_text(const Model& model) {
 std::vector<std::string> motion_warnings(const Linkage& linkage, const Model& model) {
   std::vector<std::string> texts;
   const Mechanism& m = model.mechanism;
-  for (std::size_t i = 0; i < m.motions.size(); ++i) {
-    const Motion& motion = linkage.motions[i];
+  for (const MotionIndex i : indices_of(m.motions)) {
+    const Motion& motion = linkage.motions[static_cast<std::size_t>(i.value())];
     const auto joint = std::find_if(linkage.joints.begin(), linkage.joints.end(),
                                     [&](const Joint& j) { return j.name == motion.joint; });
     const auto k = static_cast<std::size_t>(motion.coordinate);
@@ -70,8 +70,8 @@ std::vector<std::string> motion_warnings(const Linkage& linkage, const Model& mo
       texts.push_back("motion '" + motion.name + "' begins with the " + what + " " + shown(begins) +
                       " of joint '" + joint->name + "', not with its initial " + shown(given[k]));
     };
-    compare("position", joint->position, model.start.q[static_cast<std::size_t>(m.motions[i].q)]);
-    compare("velocity", joint->velocity, model.start.v[static_cast<std::size_t>(m.motions[i].v)]);
+    compare("position", joint->position, model.start.q[m.motions[i].q]);
+    compare("velocity", joint->velocity, model.start.v[m.motions[i].v]);
   }
   if (m.motions.empty()) return texts;
   const ClosureRanks ranks = ranks_of(model);

@@ -109,15 +109,14 @@ void warn_of_redundancy(const Linkage& linkage, RedundantReactions way,
       "are redundant: use stabilization = \"baumgarte\" or \"projection\"");
 }
 
-std::string joint_of(const Mechanism& m, int velocity) {
-  const int body = m.velocities[static_cast<std::size_t>(velocity)].body;
-  return m.joint_names[static_cast<std::size_t>(body)];
+const std::string& joint_of(const Mechanism& m, VelocityIndex velocity) {
+  return m.joint_names[m.velocities[velocity].body];
 }
 
 // Joints with hold = true, and those of prescribed motions, "A, B".
 std::string held_joints(const Model& model) {
   std::vector<std::string> names;
-  for (const int k : model.held) {
+  for (const VelocityIndex k : model.held) {
     const std::string name = joint_of(model.mechanism, k);
     if (names.empty() || names.back() != name) names.push_back(name);
   }
@@ -145,14 +144,13 @@ std::string held_advice(const Model& model) {
 // taken as it is.
 std::string pose_text(const Model& model) {
   std::string text;
-  for (std::size_t b = 1; b < model.mechanism.bodies.size(); ++b) {
+  for (const BodyIndex b : bodies_outwards(model.mechanism)) {
     const Body& body = model.mechanism.bodies[b];
     if (body.q_count == 0) continue;
     text += "\n    initial.position = [";
     for (int i = 0; i < body.q_count; ++i) {
       char value[32];
-      std::snprintf(value, sizeof value, "%.17g",
-                    model.start.q[static_cast<std::size_t>(body.q_begin + i)]);
+      std::snprintf(value, sizeof value, "%.17g", model.start.q[body.q_begin + i]);
       text += (i > 0 ? ", " : "") + std::string(value);
       if (text.find_first_of(".en", text.size() - std::string(value).size()) == std::string::npos) {
         text += ".0";
@@ -174,9 +172,9 @@ bool keep_loose_journals(const Linkage& linkage, const std::vector<unsigned>& id
   const Mechanism& m = p.model.mechanism;
   Workspace<double> w = make_workspace<double>(m);
   compute_motion(m, p.model.parameters, start, w);
-  for (std::size_t i = 0; i < m.contacts.size(); ++i) {
-    if (m.contacts[i].clearance < 0) continue;
-    const auto c = static_cast<std::size_t>(m.contacts[i].clearance);
+  for (const ContactIndex i : indices_of(m.contacts)) {
+    const ClearanceIndex c = m.contacts[i].clearance;
+    if (!c.exists()) continue;
     if (w.contacts[i].depth > kPressed * p.model.parameters.clearances[c].radial) return false;
   }
   p.model.start = start;
@@ -193,9 +191,8 @@ void warn_of_changed_velocities(const Linkage& linkage, const State<double>& giv
   const bool elastic = std::any_of(linkage.closures.begin(), linkage.closures.end(), [](auto& c) {
     return c.model == ClosureModel::sde && c.sde.start == SdeStart::closed;
   });
-  for (int k = 0; k < m.nv; ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    const double asked = given.v[i], got = p.model.start.v[i];
+  for (const VelocityIndex k : velocities(m)) {
+    const double asked = given.v[k], got = p.model.start.v[k];
     if (asked == 0.0 && std::abs(got) > kFoundVelocity * largest) p.found_velocities.push_back(k);
     if (asked == 0.0 || std::abs(got - asked) <= kStatedVelocity * largest) continue;
     p.warnings.push_back(velocity_name(m, k) + ": its initial velocity is " + number(got) +
@@ -254,8 +251,8 @@ Linkage with_deflected_sdes(Linkage linkage) {
 // A run lets go of what statics holds.
 void warn_of_holding(const Model& at_rest, const StaticsReport& statics, Preparation& p) {
   const double slight = kSlightEffort * force_scale(at_rest, statics.time);
-  for (const int k : at_rest.held) {
-    const double effort = is_driven(at_rest.mechanism, k) ? 0.0 : statics.holding[k];
+  for (const VelocityIndex k : at_rest.held) {
+    const double effort = is_driven(at_rest.mechanism, k) ? 0.0 : statics.holding[k.value()];
     if (std::abs(effort) <= slight) continue;
     p.warnings.push_back("the equilibrium holds " + velocity_name(at_rest.mechanism, k) + " with " +
                          number(effort) + " " + effort_unit(at_rest.mechanism, k) +
@@ -309,12 +306,11 @@ void slide_constant_frictions(Model& model) {
   State<double>& start = model.start;
   Workspace<double> w = make_workspace<double>(m);
   update_kinematics(m, model.parameters, start.q.data(), start.v.data(), w);
-  for (std::size_t i = 0; i < m.constant_frictions.size(); ++i) {
+  for (const ConstantFrictionIndex i : indices_of(m.constant_frictions)) {
     const ConstantFrictionStructure& s = m.constant_frictions[i];
     const ConstantFrictionParameters<double>& n = model.parameters.constant_frictions[i];
     const auto slide = [&]<std::size_t Count>() {
-      slide_steadily(n.law, sliding_speeds<Count>(s, n, start.v.data(), w),
-                     &start.z[static_cast<std::size_t>(s.z)]);
+      slide_steadily(n.law, sliding_speeds<Count>(s, n, start.v.data(), w), &start.z[s.z]);
     };
     if (s.count == 1) slide.template operator()<1>();
     if (s.count == 2) slide.template operator()<2>();
@@ -325,19 +321,19 @@ void slide_constant_frictions(Model& model) {
 // A joint that slides at the start has done so before: its bristles are those of steady sliding.
 void slide_bristles(Model& model) {
   slide_constant_frictions(model);
-  for (std::size_t i = 0; i < model.mechanism.frictions.size(); ++i) {
+  for (const FrictionIndex i : indices_of(model.mechanism.frictions)) {
     const JointFrictionStructure& f = model.mechanism.frictions[i];
     const JointFrictionParameters<double>& n = model.parameters.frictions[i];
-    const auto rate = [&](int v, double factor) {
-      return v < 0 ? 0.0 : factor * model.start.v[static_cast<std::size_t>(v)];
+    const auto rate = [&](VelocityIndex v, double factor) {
+      return v.exists() ? factor * model.start.v[v] : 0.0;
     };
     const double turning = rate(f.turn, n.radius), sliding = rate(f.slide, 1.0);
     const double speed = std::hypot(turning, sliding);
     if (speed == 0.0) continue;
     const double deflection = lugre_sliding(n.law, speed) / (n.law.sigma0 * speed);
-    double* z = &model.start.z[static_cast<std::size_t>(f.z)];
-    if (f.turn >= 0) *z++ = deflection * turning;
-    if (f.slide >= 0) *z = deflection * sliding;
+    double* z = &model.start.z[f.z];
+    if (f.turn.exists()) *z++ = deflection * turning;
+    if (f.slide.exists()) *z = deflection * sliding;
   }
 }
 
@@ -357,11 +353,11 @@ void warn_of_step(const SimulationOptions& options, Preparation& p) {
 }
 
 // Turn of the second frame about the common x axis of closure i at a state, rad.
-double turn_of(const Model& model, const State<double>& s, std::size_t i) {
+double turn_of(const Model& model, const State<double>& s, ClosureIndex i) {
   Workspace<double> w = make_workspace<double>(model.mechanism);
   compute_motion(model.mechanism, model.parameters, s, w);
-  const Vec3<double>& y = w.closures[i].r2.y;
-  return std::atan2(dot(y, w.closures[i].r1.z), dot(y, w.closures[i].r1.y));
+  const ClosureState<double>& x = w.closures[i];
+  return std::atan2(dot(x.r2.y, x.r1.z), dot(x.r2.y, x.r1.y));
 }
 
 // Half a turn ends the law of the rotation vector.
@@ -372,8 +368,9 @@ void warn_of_large_turn(const Linkage& linkage, Preparation& p) {
   for (std::size_t i = 0; i < linkage.closures.size(); ++i) {
     const Closure& c = linkage.closures[i];
     const bool measured = c.model == ClosureModel::sde && c.sde.tilt == TiltMeasure::angle;
-    if (!measured || !m.closures[i].needs_frames) continue;
-    const Vec3<double> phi = rotation_vector(w.closures[i].r1, w.closures[i].r2).phi;
+    if (!measured || !m.closures[ClosureIndex(i)].needs_frames) continue;
+    const ClosureState<double>& x = w.closures[ClosureIndex(i)];
+    const Vec3<double> phi = rotation_vector(x.r1, x.r2).phi;
     const double turn = std::sqrt(dot(phi, phi)) * 180.0 / std::numbers::pi;
     if (turn <= kLargeTurn) continue;
     p.warnings.push_back("closure '" + c.name + "': its ends are turned by " + number(turn) +
@@ -391,7 +388,8 @@ void warn_of_tilt(const Linkage& linkage, Preparation& p) {
     if (c.model != ClosureModel::sde || c.sde.tilt != TiltMeasure::linearized || !turns || !tilts) {
       continue;
     }
-    const double turn = std::abs(turn_of(p.model, p.model.start, i)) * 180.0 / std::numbers::pi;
+    const double turn =
+        std::abs(turn_of(p.model, p.model.start, ClosureIndex(i))) * 180.0 / std::numbers::pi;
     if (turn <= kLinearTurn) continue;
     p.warnings.push_back("closure '" + c.name + "': its ends are turned by " + number(turn) +
                          " deg at the start; tilt = \"linearized\" is meant for up to 45 deg and "
@@ -406,7 +404,7 @@ void warn_of_shut_springs(const Linkage& linkage, Preparation& p) {
   Workspace<double> w = make_workspace<double>(m);
   compute_motion(m, p.model.parameters, p.model.start, w);
   for (std::size_t i = 0; i < linkage.springs.size(); ++i) {
-    const PointSpringState<double>& x = w.point_springs[i];
+    const PointSpringState<double>& x = w.point_springs[PointSpringIndex(i)];
     if (x.length > kClosedTolerance || std::abs(x.force) <= kSlightForce) continue;
     p.warnings.push_back("spring '" + linkage.springs[i].name +
                          "': its points coincide at the start, where its force of " +
@@ -427,7 +425,7 @@ Preparation prepare(const Linkage& linkage, const SimulationOptions& options) {
   if (way == RedundantReactions::loops) add_loop_joints(linkage, p.model.mechanism);
   if (!assemble(linkage, idle, closed, way, p)) return p;
   resolve_damping(linkage, p.model.start, p.model);
-  const std::vector<double> velocities = p.model.start.v;
+  const IndexedVector<VelocityIndex, double> velocities = p.model.start.v;
   if (options.start == Start::equilibrium) {
     if (!find_equilibrium(linkage, options.statics_time, p)) return p;
     p.model.start.v = velocities;

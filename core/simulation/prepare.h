@@ -19,7 +19,7 @@ struct Preparation {
   std::string message;
   Model model;  // model.start is where the run begins
   AssemblyReport assembly;
-  std::vector<int> found_velocities;  // not given, and not zero where the run begins
+  std::vector<VelocityIndex> found_velocities;  // not given, and not zero where the run begins
   std::optional<StaticsReport> statics;
   Spectrum spectrum;
   std::vector<std::string> warnings;  // about model and start

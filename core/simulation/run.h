@@ -124,18 +124,18 @@ class Run {
   // Of an accepted state; what contacts remember is still that of the state before.
   void record_contacts(double t) {
     if (cases_[0].contacts == nullptr) return;
-    for (const int i : indices_of(m_.contacts)) {
-      const ContactMemory<Real>& memory = at(w_.memory, i);
-      const unsigned touches = lane_bits(at(w_.contacts, i).depth > memory.least_depth);
+    for (const ContactIndex i : indices_of(m_.contacts)) {
+      const ContactMemory<Real>& memory = w_.memory[i];
+      const unsigned touches = lane_bits(w_.contacts[i].depth > memory.least_depth);
       const unsigned touched = lane_bits(memory.touching > Real(0.5));
       if (((touches | touched) & active_) != 0) record_contact_of(i, t, touches, touched);
     }
   }
 
-  [[gnu::noinline]] void record_contact_of(int contact, double t, unsigned touches,
+  [[gnu::noinline]] void record_contact_of(ContactIndex contact, double t, unsigned touches,
                                            unsigned touched) {
-    const ContactMemory<Real>& before = at(w_.memory, contact);
-    const ContactState<Real>& now = at(w_.contacts, contact);
+    const ContactMemory<Real>& before = w_.memory[contact];
+    const ContactState<Real>& now = w_.contacts[contact];
     for (int i = 0; i < count_; ++i) {
       if (((touches | touched) & active_) >> i & 1u) {
         record_contact(*cases_[i].contacts,
@@ -203,7 +203,7 @@ class Run {
     end.steps = step_;
     end.contacts = lane(contact_log_.begun, i);
     end.least_contact_steps = lane(contact_log_.least_steps, i);
-    for (int k = 0; k < size_; ++k) cases_[i].final_y[k] = lane(at(y_, k), i);
+    for (int k = 0; k < size_; ++k) cases_[i].final_y[k] = lane(y_[k], i);
     observers_.store(i);
     active_ &= ~(1u << i);
     reset(i);
@@ -216,18 +216,18 @@ class Run {
 
   void reset(int i) {
     const LaneCase& c = cases_[i < count_ ? i : count_ - 1];
-    for (int k = 0; k < size_; ++k) set_lane(at(y_, k), i, c.y[k]);
-    for (const int n : indices_of(m_.contacts)) set_contact(n, i, fresh_contact<double>());
+    for (int k = 0; k < size_; ++k) set_lane(y_[k], i, c.y[k]);
+    for (const ContactIndex n : indices_of(m_.contacts)) set_contact(n, i, fresh_contact<double>());
   }
 
-  void set_contact(int contact, int i, const ContactMemory<double>& from) {
-    ContactMemory<Real>& memory = at(w_.memory, contact);
+  void set_contact(ContactIndex contact, int i, const ContactMemory<double>& from) {
+    ContactMemory<Real>& memory = w_.memory[contact];
     set_lane(memory.depth, i, from.depth);
     set_lane(memory.rate, i, from.rate);
     set_lane(memory.touching, i, from.touching);
     set_lane(memory.approach, i, from.approach);
     set_lane(memory.least_depth, i, from.least_depth);
-    set_lane(at(contact_steps_, contact), i, 0.0);
+    set_lane(contact_steps_[contact], i, 0.0);
   }
 
   Real* bristles() { return y_.data() + m_.nq + m_.nv; }
@@ -242,7 +242,7 @@ class Run {
   int size_;
   std::vector<Real> y_;  // core/simulation/run_state.h
   std::vector<Real> correction_;
-  std::vector<Real> contact_steps_;  // states in the present contact
+  IndexedVector<ContactIndex, Real> contact_steps_;  // states in the present contact
   ContactLog<Real> contact_log_;
   LaneObservers<Real> observers_;
   Workspace<Real> w_;

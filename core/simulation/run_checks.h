@@ -19,8 +19,8 @@ inline constexpr double kEnergyFloor = 1e-3;  // J/kg of the whole linkage
 template <class Real>
 inline Real drift_of(const Mechanism& m, const Workspace<Real>& w) {
   Real square(0.0);
-  for (const int r : indices(m.cut_row_count())) {
-    square = madd(at(w.cut_rows, r).d, at(w.cut_rows, r).d, square);
+  for (const RowIndex r : indices_of(m.cut_rows)) {
+    square = madd(w.cut_rows[r].d, w.cut_rows[r].d, square);
   }
   return sqrt(square);
 }
@@ -33,18 +33,19 @@ class RunChecks {
   using Mask = typename RealTraits<Real>::Mask;
 
   RunChecks(const Mechanism& m, const Parameters<Real>& p) {
-    for (const int b : bodies_outwards(m)) mass_ = mass_ + at(p.bodies, b).mass;
+    for (const BodyIndex b : bodies_outwards(m)) mass_ = mass_ + p.bodies[b].mass;
   }
 
   // Of the state y (run_state.h) and the accelerations in w.
   Mask moves(const Mechanism& m, const Real* y, const Workspace<Real>& w) const {
-    const Real* v = y + m.nq;
+    const Velocities<const Real> v(y + m.nq);
+    const Real* z = y + m.nq + m.nv;
     Real fastest(0.0), sum(0.0);
-    for (const int k : velocities(m)) {
+    for (const VelocityIndex k : velocities(m)) {
       fastest = max(fastest, abs(v[k]));
-      sum = sum + (abs(v[k]) + abs(at(w.qdd, k)));
+      sum = sum + (abs(v[k]) + abs(w.qdd[k]));
     }
-    for (const int i : indices(m.nz)) sum = sum + abs(v[m.nv + i]);
+    for (const int i : indices(m.nz)) sum = sum + abs(z[i]);
     // A lost velocity is not a number, which is not below anything.
     return fastest < Real(kFastest) && is_finite(sum);
   }

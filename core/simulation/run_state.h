@@ -28,25 +28,26 @@ namespace linkstudy {
 template <class Real>
 inline void evaluate_state(const Mechanism& m, const Parameters<Real>& p, Real t, const Real* y,
                            Workspace<Real>& w) {
-  const Real* v = y + m.nq;
-  for (const int i : indices(m.nz)) at(w.z, i) = v[m.nv + i];
-  evaluate(m, p, t, y, v, w);
+  const Bristles<const Real> z(y + m.nq + m.nv);
+  for (const BristleIndex i : indices_of(w.z)) w.z[i] = z[i];
+  evaluate(m, p, t, y, y + m.nq, w);
 }
 
 // dy/dt, from the evaluation at y.
 template <class Real>
 inline void write_slopes(const Mechanism& m, const Real* y, const Workspace<Real>& w, Real* slope) {
-  for (const int i : indices_of(m.stages)) {
-    const Stage& s = at(m.stages, i);
-    position_rates(s, y + s.q, y + m.nq + s.v, slope + s.q);
-  }
-  Real* rest = slope + m.nq;
-  for (const int k : velocities(m)) rest[k] = at(w.qdd, k);
-  for (const int i : indices_of(m.motions)) rest[at(m.motions, i).v] = at(w.motions, i).a;
-  for (const int i : indices(m.nz)) rest[m.nv + i] = at(w.z_rate, i);
-  rest[m.nv + m.nz] = w.supplied_power;
-  rest[m.nv + m.nz + 1] = w.dissipated_power;
-  if (m.contact_count() > 0) rest[m.nv + m.nz + 2] = w.contact_power;
+  const Positions<const Real> q(y);
+  const Velocities<const Real> v(y + m.nq);
+  const Positions<Real> q_rate(slope);
+  const Velocities<Real> v_rate(slope + m.nq);
+  for (const Stage& s : m.stages) position_rates(s, &q[s.q], &v[s.v], &q_rate[s.q]);
+  for (const VelocityIndex k : velocities(m)) v_rate[k] = w.qdd[k];
+  for (const MotionIndex i : indices_of(m.motions)) v_rate[m.motions[i].v] = w.motions[i].a;
+  Real* rest = slope + m.nq + m.nv;
+  for (const BristleIndex i : indices_of(w.z_rate)) rest[i.value()] = w.z_rate[i];
+  rest[m.nz] = w.supplied_power;
+  rest[m.nz + 1] = w.dissipated_power;
+  if (m.contact_count() > 0) rest[m.nz + 2] = w.contact_power;
 }
 
 // The state at t. Leaves in w what the projection has found; correction (nv) is scratch.

@@ -10,8 +10,9 @@ namespace linkstudy {
 namespace {
 
 // Takes n numbers of a row.
-std::vector<double> take(const double*& row, int n) {
-  std::vector<double> numbers(row, row + n);
+template <class Numbers = std::vector<double>>
+Numbers take(const double*& row, int n) {
+  Numbers numbers(row, row + n);
   row += n;
   return numbers;
 }
@@ -39,9 +40,9 @@ StepLimit find_step_limit(const Mechanism& m, const Parameters<double>& p,
     State<double> s;
     s.t = *row++;
     if (std::isnan(s.t)) continue;
-    s.q = take(row, m.nq);
-    s.v = take(row, m.nv);
-    s.z = take(row, m.nz);
+    s.q = take<decltype(s.q)>(row, m.nq);
+    s.v = take<decltype(s.v)>(row, m.nv);
+    s.z = take<decltype(s.z)>(row, m.nz);
     row += work_count(m);
     const std::vector<double> approach = take(row, static_cast<int>(m.contacts.size()));
     worst = worse(worst, compute_spectrum(model, s, approach), s.t);

@@ -39,7 +39,7 @@ class StepWatch {
   bool looks_at(long step) const { return step == next_; }
 
   // z: bristles of an accepted state.
-  Mask bristles_hold(const Real* z) const { return bent(z) <= Real(kFarthest); }
+  Mask bristles_hold(Bristles<const Real> z) const { return bent(z) <= Real(kFarthest); }
 
   // An accepted state and its evaluation, in the lanes that still run.
   void see(long step, double t, const Real* y, const Workspace<Real>& w, unsigned active) {
@@ -48,28 +48,28 @@ class StepWatch {
     const auto right = bent(y + m_.nq + m_.nv) <= Real(kRight);
     Real rate(0.0);
     const auto note = [&](int n, Real load) {
-      const auto more = right && load > Real(kHeavier) * at(heaviest_, n);
+      const auto more = right && load > Real(kHeavier) * heaviest_[n];
       if (!any(more)) return;
-      at(heaviest_, n) = select(more, load, at(heaviest_, n));
+      heaviest_[n] = select(more, load, heaviest_[n]);
       keep(kEvenLooks + n, lane_bits(more) & active, t, y, w);
     };
-    for (const int i : indices_of(m_.frictions)) {
-      rate = max(rate, at(w.frictions, i).relaxation);
-      note(i, at(w.frictions, i).load);
+    for (const FrictionIndex i : indices_of(m_.frictions)) {
+      rate = max(rate, w.frictions[i].relaxation);
+      note(i.value(), w.frictions[i].load);
     }
-    for (const int i : indices_of(m_.constant_frictions)) {
-      rate = max(rate, at(w.constant_frictions, i).relaxation);
+    for (const ConstantFrictionIndex i : indices_of(m_.constant_frictions)) {
+      rate = max(rate, w.constant_frictions[i].relaxation);
     }
-    for (const int i : indices_of(m_.contacts)) {
-      const ContactState<Real>& s = at(w.contacts, i);
+    for (const ContactIndex i : indices_of(m_.contacts)) {
+      const ContactState<Real>& s = w.contacts[i];
       const NormalContact<Real>& law = law_of_contact(m_, p_, i);
       rate = max(rate, s.relaxation);
-      const int n = m_.friction_count() + 2 * i;
+      const int n = m_.friction_count() + 2 * i.value();
       note(n, s.elastic);
       note(n + 1, s.elastic * law.damping / max(s.approach, law.least_speed) + viscous(i, s));
     }
-    for (const int i : indices(m_.bent_springs)) {
-      note(m_.friction_count() + 2 * m_.contact_count() + i, at(w.spring_weights, i));
+    for (const BendIndex i : indices_of(w.spring_weights)) {
+      note(m_.friction_count() + 2 * m_.contact_count() + i.value(), w.spring_weights[i]);
     }
     const auto faster = right && rate > rate_;
     rate_ = select(faster, rate, rate_);
@@ -87,22 +87,23 @@ class StepWatch {
   static constexpr double kHeavier = 1.02;  // so that a load that grows is not kept at every step
 
   // Damping of a stop that does not follow the law of an impact, where it touches.
-  Real viscous(int contact, const ContactState<Real>& s) const {
-    const int stop = at(m_.contacts, contact).stop;
-    if (stop < 0) return Real(0.0);
-    return select(s.elastic > Real(0.0), at(p_.stops, stop).damping, Real(0.0));
+  Real viscous(ContactIndex contact, const ContactState<Real>& s) const {
+    const StopIndex stop = m_.contacts[contact].stop;
+    if (!stop.exists()) return Real(0.0);
+    return select(s.elastic > Real(0.0), p_.stops[stop].damping, Real(0.0));
   }
 
   // Largest |z| in parts of what its law allows.
-  Real bent(const Real* z) const {
+  Real bent(Bristles<const Real> z) const {
     Real most(0.0);
-    for (const int i : indices(m_.nz)) most = max(most, abs(z[i]) * at(inverse_bound_, i));
+    for (const BristleIndex i : indices_of(inverse_bound_))
+      most = max(most, abs(z[i]) * inverse_bound_[i]);
     return most;
   }
 
   void bound_bristles() {
-    for_bristles(m_, p_, [this](int z, const LugreParameters<Real>& law) {
-      at(inverse_bound_, z) = law.sigma0 / law.mu_s;
+    for_bristles(m_, p_, [this](BristleIndex z, const LugreParameters<Real>& law) {
+      inverse_bound_[z] = law.sigma0 / law.mu_s;
     });
   }
 
@@ -119,8 +120,8 @@ class StepWatch {
       double* row = cases_[i].looks + look * look_size(m_);
       *row++ = t;
       for (int k = 0; k < size; ++k) *row++ = lane(y[k], i);
-      for (const int c : indices_of(m_.contacts)) {
-        const ContactState<Real>& s = at(w.contacts, c);
+      for (const ContactIndex c : indices_of(m_.contacts)) {
+        const ContactState<Real>& s = w.contacts[c];
         *row++ = lane(s.elastic, i) > 0.0 ? lane(s.approach, i) : kNoApproach;
       }
     }
@@ -132,7 +133,7 @@ class StepWatch {
   int count_;
   long stride_, next_;          // steps between even looks, step of the next
   std::vector<Real> heaviest_;  // by joint with friction, then two a contact, then by spring
-  std::vector<Real> inverse_bound_;
+  IndexedVector<BristleIndex, Real> inverse_bound_;
   Real rate_ = Real(0.0), rate_time_ = Real(0.0);
 };
 

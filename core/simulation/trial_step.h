@@ -89,9 +89,9 @@ class TrialStep {
 
   // Of the evaluation in w_.
   void see(Real* near, Real& drift) const {
-    for (const int i : indices_of(m_.contacts)) {
-      near[2 * i] = at(w_.contacts, i).depth;
-      near[2 * i + 1] = at(w_.contacts, i).rate;
+    for (const ContactIndex i : indices_of(m_.contacts)) {
+      near[2 * i.value()] = w_.contacts[i].depth;
+      near[2 * i.value() + 1] = w_.contacts[i].rate;
     }
     drift = drift_of(m_, w_);
   }
@@ -104,16 +104,16 @@ class TrialStep {
       const Real t = madd(part, h_, t_);
       impose_motions(m_, p_, t, inside_.data(), inside_.data() + m_.nq);
       if (!m_.ball_q.empty()) normalize_quaternions(m_, inside_.data());
-      for_nearness(m_, p_, inside_.data(), w_, [quarter](int i, Real depth, Real rate) {
-        quarter[2 * i] = depth;
-        quarter[2 * i + 1] = rate;
+      for_nearness(m_, p_, inside_.data(), w_, [quarter](ContactIndex i, Real depth, Real rate) {
+        quarter[2 * i.value()] = depth;
+        quarter[2 * i.value() + 1] = rate;
       });
     }
   }
 
   [[gnu::noinline]] void settle() {
     const Real t = t_ + h_;
-    for (int k = 0; k < size(); ++k) at(settled_, k) = method_.end()[k];
+    for (int k = 0; k < size(); ++k) settled_[k] = method_.end()[k];
     settle_state(m_, p_, t, settled_.data(), correction_.data(), w_);
     differentiate(t, settled_.data(), settled_slope_.data());
     see(settled_near_.data(), settled_drift_);

@@ -28,9 +28,9 @@ void start_beam(const std::string& link, const Model& started, Tree& beam) {
   for (int k = 1;; ++k) {
     const auto name = std::ranges::find(m.joint_names, element_joint_name(link, k));
     if (name == m.joint_names.end()) break;
-    const Body& body = m.bodies[static_cast<std::size_t>(name - m.joint_names.begin())];
-    append_numbers(started.start.q, body.q_begin, body.q_count, position);
-    append_numbers(started.start.v, body.v_begin, body.v_count, velocity);
+    const Body& body = m.bodies[BodyIndex(name - m.joint_names.begin())];
+    append_numbers(started.start.q, body.q_begin.value(), body.q_count, position);
+    append_numbers(started.start.v, body.v_begin.value(), body.v_count, velocity);
   }
   if (position.items.empty()) return;
   Tree initial = Tree::make_table();
@@ -46,12 +46,12 @@ std::string started_model_text(const ModelInput& input, const Model& started) {
   const Mechanism& m = started.mechanism;
   for (Tree& joint : model.find("joint")->items) {
     const auto name = std::ranges::find(m.joint_names, joint.find("name")->text);
-    const Body& body = m.bodies[static_cast<std::size_t>(name - m.joint_names.begin())];
+    const Body& body = m.bodies[BodyIndex(name - m.joint_names.begin())];
     if (body.v_count == 0) continue;
     Tree* initial = joint.find("initial");
     Tree& start = initial != nullptr ? *initial : joint.set("initial", Tree::make_table());
-    start.set("position", numbers_tree(started.start.q, body.q_begin, body.q_count));
-    start.set("velocity", numbers_tree(started.start.v, body.v_begin, body.v_count));
+    start.set("position", numbers_tree(started.start.q, body.q_begin.value(), body.q_count));
+    start.set("velocity", numbers_tree(started.start.v, body.v_begin.value(), body.v_count));
   }
   for (Tree& link : model.find("link")->items) {
     Tree* beam = link.find("flexible");

@@ -41,14 +41,13 @@ void add_damping(const Linkage& linkage, const Model& model, const std::string& 
   for (std::size_t i = 0; i < linkage.closures.size(); ++i) {
     const Closure& closure = linkage.closures[i];
     if (closure.model != ClosureModel::sde || !closure.sde.damping_ratio) continue;
-    const ClosureStructure& structure = model.mechanism.closures[i];
+    const ClosureStructure& structure = model.mechanism.closures[ClosureIndex(i)];
     std::vector<NamedDamping> shifts;
     std::vector<NamedDamping> turns;
-    for (int r = structure.row_begin; r < structure.row_end; ++r) {
-      const auto row = static_cast<std::size_t>(r);
-      const Row& sde = model.mechanism.sde_rows[row];
+    for (const RowIndex r : indices(structure.row_begin, structure.row_end)) {
+      const Row& sde = model.mechanism.sde_rows[r];
       (measures_turn(sde.kind) ? turns : shifts)
-          .push_back({direction_name(sde), model.parameters.springs[row].damping});
+          .push_back({direction_name(sde), model.parameters.springs[r].damping});
     }
     const std::string name = fmt::format("{}closure.{}.sde.damping", prefix, closure.name);
     derived.push_back({name + "_ratio", "", {*closure.sde.damping_ratio}});

@@ -27,8 +27,8 @@ std::vector<Channel> static_channels(const Mechanism& mechanism) {
 }
 
 // "joint.P.hold", "joint.U.hold.1": the effort of a hold along a coordinate, on the child.
-std::string hold_name(const Mechanism& m, int velocity) {
-  const auto body = static_cast<std::size_t>(m.velocities[static_cast<std::size_t>(velocity)].body);
+std::string hold_name(const Mechanism& m, VelocityIndex velocity) {
+  const BodyIndex body = m.velocities[velocity].body;
   const Body& b = m.bodies[body];
   const std::string name = "joint." + m.joint_names[body] + ".hold";
   return b.v_count == 1 ? name : fmt::format("{}.{}", name, velocity - b.v_begin);
@@ -66,10 +66,10 @@ std::vector<StaticValue> equilibrium_values(const Preparation& preparation,
   for (std::size_t i = 0; i < series.values.size(); ++i) {
     values.push_back({series.channels[i].name, series.values[i], series.channels[i].unit});
   }
-  for (const int k : model.held) {
+  for (const VelocityIndex k : model.held) {
     if (is_driven(model.mechanism, k)) continue;
-    values.push_back(
-        {hold_name(model.mechanism, k), statics.holding[k], effort_unit(model.mechanism, k)});
+    values.push_back({hold_name(model.mechanism, k), statics.holding[k.value()],
+                      effort_unit(model.mechanism, k)});
   }
   return values;
 }

@@ -4,13 +4,28 @@
 
 // The members of the engine's records that a reference run consists of.
 namespace linkstudy {
+namespace {
+
+// An indexed vector as the list that it is.
+template <class Index, class T>
+std::vector<T>& list_of(IndexedVector<Index, T>& indexed) {
+  return indexed;
+}
+template <class Index, class T>
+const std::vector<T>& list_of(const IndexedVector<Index, T>& indexed) {
+  return indexed;
+}
+
+}  // namespace
 
 void visit_members(auto& archive, Like<Channel> auto& channel) {
   archive(channel.name, channel.unit);
   archive.template as<std::uint32_t>(channel.quantity);
   archive.template as<std::int64_t>(channel.index);
   archive.template as<std::int64_t>(channel.component);
-  archive.template as<std::int64_t>(channel.body);
+  int body = channel.body.value();
+  archive.template as<std::int64_t>(body);
+  if constexpr (requires { channel.body = BodyIndex(body); }) channel.body = BodyIndex(body);
 }
 
 void visit_members(auto& archive, Like<Sampling> auto& sampling) {
@@ -24,7 +39,8 @@ void visit_members(auto& archive, Like<Series> auto& series) {
 }
 
 void visit_members(auto& archive, Like<State<double>> auto& state) {
-  archive(state.t, state.supplied, state.dissipated, state.q, state.v, state.z);
+  archive(state.t, state.supplied, state.dissipated, list_of(state.q), list_of(state.v),
+          list_of(state.z));
 }
 
 void visit_members(auto& archive, Like<StepGrid> auto& grid) {

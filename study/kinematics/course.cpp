@@ -72,8 +72,8 @@ std::optional<Driven> usual_drive(const Mechanism& m, const std::vector<Drive>& 
     }
   }
   const auto on_ground = std::ranges::find_if(all, [&](const Drive& drive) {
-    const Velocity& v = m.velocities[static_cast<std::size_t>(drive.velocity)];
-    return m.bodies[static_cast<std::size_t>(v.body)].parent == 0;
+    const Velocity& v = m.velocities[drive.velocity];
+    return m.bodies[v.body].parent == kGroundBody;
   });
   return on_ground == all.end() ? std::nullopt : std::optional(Driven{*on_ground, {}});
 }
@@ -134,7 +134,7 @@ void fill_in(std::vector<Driven>& chosen, const State<double>& start, double ext
   for (Driven& driven : chosen) {
     DriveCourse& course = driven.course;
     if (course.law == MotionLaw::table) continue;
-    if (!course.from) course.from = start.q[static_cast<std::size_t>(driven.drive.position)];
+    if (!course.from) course.from = start.q[driven.drive.position];
     if (course.to || course.motion) continue;
     const double whole = driven.drive.turns ? 2.0 * std::numbers::pi : 0.1 * extent;
     course.to = *course.from + (chosen.size() == 1 ? whole : 0.0);

@@ -54,7 +54,7 @@ std::vector<std::string> driven_channels(const DrivenLinkage& driven) {
   const std::vector<Channel> all = list_channels(driven.model().mechanism);
   for (const Drive& drive : driven.drives()) {
     const auto channel = std::ranges::find_if(all, [&](const Channel& one) {
-      return one.quantity == Quantity::q && one.index == drive.position;
+      return one.quantity == Quantity::q && one.index == drive.position.value();
     });
     names.push_back(channel->name);
   }

@@ -91,9 +91,10 @@ bool is_on_ground(const Mechanism& m, const std::string& coordinate) {
     return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
   };
   const std::string owner = owner_of(coordinate);
-  if (coordinate.starts_with("joint.")) return m.bodies[index(m.joint_names, owner)].parent == 0;
-  const ClosureStructure& c = m.closures[index(m.closure_names, owner)];
-  return c.first == 0 || c.second == 0;
+  if (coordinate.starts_with("joint."))
+    return m.bodies[BodyIndex(index(m.joint_names, owner))].parent == kGroundBody;
+  const ClosureStructure& c = m.closures[ClosureIndex(index(m.closure_names, owner))];
+  return c.first == kGroundBody || c.second == kGroundBody;
 }
 
 bool is_coordinate(const Column& column) {
@@ -108,8 +109,10 @@ State<double> between(const DrivenPose& a, const DrivenPose& b, double t) {
   State<double> s = a.s;
   const double x = (t - a.time) / (b.time - a.time);
   for (std::size_t i = 0; i < s.q.size(); ++i) {
-    s.q[i] = Quintic({a.time, a.s.q[i], a.s.v[i], a.a[i]}, {b.time, b.s.q[i], b.s.v[i], b.a[i]})
-                 .value(x);
+    s.q[PositionIndex(i)] =
+        Quintic({a.time, a.s.q[PositionIndex(i)], a.s.v[VelocityIndex(i)], a.a[i]},
+                {b.time, b.s.q[PositionIndex(i)], b.s.v[VelocityIndex(i)], b.a[i]})
+            .value(x);
   }
   return s;
 }

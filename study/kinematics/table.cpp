@@ -24,8 +24,8 @@ class TableBuilder {
                              channel.quantity == Quantity::a;
       if (is_wanted) channels_.push_back(channel);
     }
-    for (std::size_t i = 0; i < closed.mechanism.closures.size(); ++i) {
-      cut_joints_.push_back(cut_joint_of(closed.mechanism, static_cast<int>(i)));
+    for (const ClosureIndex i : indices_of(closed.mechanism.closures)) {
+      cut_joints_.push_back(cut_joint_of(closed.mechanism, i));
     }
   }
 
@@ -70,7 +70,8 @@ class TableBuilder {
         const bool shifts = k < static_cast<int>(joint.shifts.size());
         const std::string number = count > 1 ? fmt::format(".{}", k) : "";
         table_.columns.push_back(
-            {fmt::format("closure.{}.{}{}", mechanism().closure_names[i], quantity, number),
+            {fmt::format("closure.{}.{}{}", mechanism().closure_names[ClosureIndex(i)], quantity,
+                         number),
              shifts ? of_shift : of_turn});
       }
     };
@@ -97,9 +98,10 @@ class TableBuilder {
     for (const Channel& channel : channels_) {
       const auto i = static_cast<std::size_t>(channel.index);
       if (channel.quantity == Quantity::q) {
-        cells.push_back(pose.s.q[i]);
+        cells.push_back(pose.s.q[PositionIndex(i)]);
       } else {
-        cells.push_back(rate(pose, channel.quantity == Quantity::v ? pose.s.v[i] : pose.a[i]));
+        cells.push_back(
+            rate(pose, channel.quantity == Quantity::v ? pose.s.v[VelocityIndex(i)] : pose.a[i]));
       }
     }
   }

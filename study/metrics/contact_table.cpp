@@ -25,10 +25,10 @@ double restitution_of(const ContactRecord& one) {
 }
 
 std::vector<ContactRow> rows_of(const Mechanism& mechanism, const ContactList& contacts) {
-  const std::vector<ContactPlace> places = contact_places(mechanism);
+  const auto places = contact_places(mechanism);
   std::vector<ContactRow> rows;
   for (const ContactRecord& one : contacts.records) {
-    rows.push_back({one, places[static_cast<std::size_t>(one.contact)], contacts.unlisted});
+    rows.push_back({one, places[one.contact], contacts.unlisted});
   }
   return rows;
 }

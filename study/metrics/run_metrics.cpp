@@ -184,8 +184,8 @@ State<double> state_at(const Series& series, const Mechanism& mechanism, std::si
     const double value = series.values[row * n + c];
     const auto index = static_cast<std::size_t>(channel.index);
     if (channel.quantity == Quantity::time) state.t = value;
-    if (channel.quantity == Quantity::q) state.q[index] = value;
-    if (channel.quantity == Quantity::v) state.v[index] = value;
+    if (channel.quantity == Quantity::q) state.q[PositionIndex(index)] = value;
+    if (channel.quantity == Quantity::v) state.v[VelocityIndex(index)] = value;
   }
   return state;
 }

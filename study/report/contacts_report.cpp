@@ -57,11 +57,11 @@ std::optional<Table> contacts_table(const StudyResults& results) {
 }
 
 std::string hardest_contact_text(const Mechanism& mechanism, const ContactList& contacts) {
-  const std::vector<ContactPlace> places = contact_places(mechanism);
+  const auto places = contact_places(mechanism);
   std::string text;
   for (const std::optional<ContactRecord>& one : contacts.hardest) {
     if (!one) continue;
-    const ContactPlace& place = places[static_cast<std::size_t>(one->contact)];
+    const ContactPlace& place = places[one->contact];
     text += (text.empty() ? "" : "; ") + contact_text(place, *one);
   }
   return text;

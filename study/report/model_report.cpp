@@ -69,11 +69,9 @@ std::string statics_text(const StaticsReport& s) {
 // Joints whose friction statics leaves out.
 std::vector<std::string> joints_with_friction(const Mechanism& m) {
   std::vector<std::string> names;
-  for (const JointFrictionStructure& f : m.frictions) {
-    names.push_back(m.joint_names[static_cast<std::size_t>(f.body)]);
-  }
+  for (const JointFrictionStructure& f : m.frictions) names.push_back(m.joint_names[f.body]);
   for (const ConstantFrictionStructure& f : m.constant_frictions) {
-    const std::string& name = m.joint_names[static_cast<std::size_t>(f.body)];
+    const std::string& name = m.joint_names[f.body];
     if (names.empty() || names.back() != name) names.push_back(name);
   }
   return names;
@@ -138,14 +136,13 @@ std::string json_text(const Json& json) {
 std::string velocities_text(const Preparation& preparation) {
   constexpr std::size_t most = 4;
   const Model& model = preparation.model;
-  const std::vector<int>& found = preparation.found_velocities;
+  const std::vector<VelocityIndex>& found = preparation.found_velocities;
   std::vector<std::string> parts;
-  for (const int k : found) {
+  for (const VelocityIndex k : found) {
     if (parts.size() == most) break;
-    const auto i = static_cast<std::size_t>(k);
-    const bool shifts = model.mechanism.velocities[i].kind == VelocityKind::translation;
+    const bool shifts = model.mechanism.velocities[k].kind == VelocityKind::translation;
     parts.push_back(fmt::format("{} = {:.6g} {}", velocity_name(model.mechanism, k),
-                                model.start.v[i], shifts ? "m/s" : "rad/s"));
+                                model.start.v[k], shifts ? "m/s" : "rad/s"));
   }
   if (found.size() > most) parts.push_back(fmt::format("{} more", found.size() - most));
   return fmt::format("follow from those given: {}", fmt::join(parts, ", "));

@@ -31,8 +31,9 @@ std::string shape_text(const Mechanism& m, const Mode& mode) {
     if (std::abs(x) < kLeastPart * std::abs(mode.shape[order[0]])) break;
     const double phase = std::arg(x) * 180.0 / std::numbers::pi;
     const bool is_real = std::abs(x.imag()) <= 0.01 * std::abs(x);
-    text += fmt::format("{}{} {:.3g}", text.empty() ? "" : ", ", velocity_name(m, order[i]),
-                        is_real ? x.real() : std::abs(x));
+    text +=
+        fmt::format("{}{} {:.3g}", text.empty() ? "" : ", ",
+                    velocity_name(m, VelocityIndex(order[i])), is_real ? x.real() : std::abs(x));
     if (!is_real) text += fmt::format(" at {:.0f} deg", phase);
   }
   return text;
@@ -49,13 +50,14 @@ Table modes_table(const Mechanism& m, const std::vector<Mode>& modes) {
   table.add(
       "decay", "1/s", "rate at which the mode dies away",
       [](const Mode& mode) { return 0.0 - mode.eigenvalue.real(); }, "{:.6g}");
-  for (int k = 0; k < m.nv; ++k) {
-    const bool slides = m.velocities[static_cast<std::size_t>(k)].kind == VelocityKind::translation;
+  for (const VelocityIndex v : indices_of(m.velocities)) {
+    const bool slides = m.velocities[v].kind == VelocityKind::translation;
+    const int k = v.value();
     table.add(
-        velocity_name(m, k), slides ? "m" : "rad", "amplitude, the largest is 1",
+        velocity_name(m, v), slides ? "m" : "rad", "amplitude, the largest is 1",
         [k](const Mode& mode) { return std::abs(mode.shape[k]); }, "{:.4g}");
     table.add(
-        velocity_name(m, k) + ".phase", "rad", "of the amplitude",
+        velocity_name(m, v) + ".phase", "rad", "of the amplitude",
         [k](const Mode& mode) { return std::arg(mode.shape[k]); }, "{:.4g}");
   }
   return table.take();
@@ -76,8 +78,9 @@ std::string modes_json(const Mechanism& m, const std::vector<Mode>& modes) {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const Mode& mode : modes) {
     nlohmann::ordered_json shape = nlohmann::ordered_json::object();
-    for (int k = 0; k < m.nv; ++k) {
-      shape[velocity_name(m, k)] = {mode.shape[k].real(), mode.shape[k].imag()};
+    for (const VelocityIndex k : indices_of(m.velocities)) {
+      const std::complex<double> x = mode.shape[k.value()];
+      shape[velocity_name(m, k)] = {x.real(), x.imag()};
     }
     all.push_back({{"frequency", hertz(mode)},
                    {"damping_ratio", mode.damping},

@@ -25,7 +25,7 @@ double deepest(double mass, double speed, double stiffness) {
 double speed_after(double t, const JournalInBearing& j, const Clearance& c, double step) {
   const SimulationOutcome end = run(compile(journal_in_bearing(j, c)), steps_of(step, t));
   EXPECT_EQ(end.cause, Cause::ok) << end.message;
-  return std::hypot(end.final_state.v[0], end.final_state.v[1]);
+  return std::hypot(end.final_state.v[VelocityIndex(0)], end.final_state.v[VelocityIndex(1)]);
 }
 
 struct Impact {
@@ -173,12 +173,12 @@ TEST(Clearance, A_journal_that_is_given_within_its_bearing_starts_there) {
   c.friction = table_1_friction();
   const Preparation inside = prepare(journal_in_bearing(j, c), steps_of(1e-5, 0.1));
   ASSERT_EQ(inside.cause, Cause::ok) << inside.message;
-  EXPECT_EQ(inside.model.start.q[0], -0.4e-3);
-  EXPECT_EQ(inside.model.start.v[0], 0.1);
+  EXPECT_EQ(inside.model.start.q[PositionIndex(0)], -0.4e-3);
+  EXPECT_EQ(inside.model.start.v[VelocityIndex(0)], 0.1);
   j.position = {-0.4e-3, 3e-3, 0.0};  // outside: closed as an ideal joint
   const Preparation outside = prepare(journal_in_bearing(j, c), steps_of(1e-5, 0.1));
   ASSERT_EQ(outside.cause, Cause::ok) << outside.message;
-  EXPECT_NEAR(outside.model.start.q[1], 0.0, 1e-9);
+  EXPECT_NEAR(outside.model.start.q[PositionIndex(1)], 0.0, 1e-9);
 }
 
 TEST(Clearance, Equilibrium_is_that_of_the_ideal_joint) {
@@ -217,7 +217,7 @@ TEST(Clearance, Forces_of_skewed_contacts_are_the_gradient_of_their_energy) {
     for (std::size_t k = 0; k < 6; ++k) {
       const auto energy = [&](double step) {
         State<double> s = start;
-        s.q[k] += step;
+        s.q[PositionIndex(k)] += step;
         probe.evaluate_at(s);
         return probe.at("energy.potential");
       };
@@ -262,8 +262,9 @@ TEST(Clearance, Contacts_with_friction_at_one_point_keep_the_momentum_of_two_fre
     const auto momentum = [&](const State<double>& s) {
       Eigen::Matrix<double, 6, 1> sum = Eigen::Matrix<double, 6, 1>::Zero();
       for (std::size_t b = 0; b < 2; ++b) {
-        const Vector3d p(&s.q[7 * b]), v(&s.v[6 * b]), w(&s.v[6 * b + 3]);
-        const double* h = &s.q[7 * b + 3];
+        const Vector3d p(&s.q[PositionIndex(7 * b)]), v(&s.v[VelocityIndex(6 * b)]),
+            w(&s.v[VelocityIndex(6 * b + 3)]);
+        const double* h = &s.q[PositionIndex(7 * b + 3)];
         const Eigen::Matrix3d r = Eigen::Quaterniond(h[0], h[1], h[2], h[3]).toRotationMatrix();
         const Link& link = linkage.links[b];
         sum.head<3>() += link.mass * v;

@@ -211,7 +211,7 @@ TEST(Coupling, That_contradicts_the_start_moves_it) {
   linkage.couplings[0].offset = 0.0;
   const Preparation p = prepare(linkage, {});
   ASSERT_EQ(p.cause, Cause::ok) << p.message;
-  EXPECT_NEAR(p.model.start.q[1], -0.8, 1e-12);
+  EXPECT_NEAR(p.model.start.q[PositionIndex(1)], -0.8, 1e-12);
   linkage.joints[1].hold = true;
   const Preparation stuck = prepare(linkage, {});
   EXPECT_EQ(stuck.cause, Cause::assembly_failed);

@@ -228,7 +228,7 @@ TEST(Courses, On_a_straight_line_over_a_coordinate_are_the_spring_of_its_joint) 
   Model model = compile(load);
   const StaticsReport rest = solve_statics(model, model.start);
   ASSERT_TRUE(rest.converged) << rest.reason;
-  EXPECT_NEAR(model.start.q[0], -kMass * 9.81 / 50.0, 1e-10);
+  EXPECT_NEAR(model.start.q[PositionIndex(0)], -kMass * 9.81 / 50.0, 1e-10);
   EXPECT_EQ(rest.stability, Stability::stable);
   EXPECT_NEAR(rest.smallest_stiffness, 50.0, 1e-7);
 }
@@ -246,7 +246,7 @@ TEST(Courses, Over_a_coordinate_give_statics_the_slope_of_their_side) {
     Model model = compile(linkage);
     const StaticsReport rest = solve_statics(model, model.start);
     ASSERT_TRUE(rest.converged) << rest.reason;
-    EXPECT_NEAR(model.start.q[0], at, 1e-9);
+    EXPECT_NEAR(model.start.q[PositionIndex(0)], at, 1e-9);
     EXPECT_NEAR(rest.smallest_stiffness, slope, 1e-6);
   }
   Linkage away = driven(JointType::prismatic, over_joint({-1.0, 1.0}, {-7.0, 7.0}));
@@ -276,7 +276,8 @@ TEST(Courses, Of_an_actuator_over_a_coordinate_add_their_slope_to_that_of_its_sp
     ASSERT_TRUE(rest.converged) << rest.reason;
     // Pull along +q: 10 - 60 q, and 80 (0.1 - q) of the rope, against 30 N.
     const double stiffness = 60.0 + (taut ? 80.0 : 0.0);
-    EXPECT_NEAR(model.start.q[0], (10.0 + (taut ? 8.0 : 0.0) - 30.0) / stiffness, 1e-10);
+    EXPECT_NEAR(model.start.q[PositionIndex(0)], (10.0 + (taut ? 8.0 : 0.0) - 30.0) / stiffness,
+                1e-10);
     EXPECT_NEAR(rest.smallest_stiffness, stiffness, 1e-6);
     const Spectrum spectrum = compute_spectrum(model, model.start);
     EXPECT_NEAR(spectrum.omega_max, std::sqrt(stiffness / kMass), 1e-6);

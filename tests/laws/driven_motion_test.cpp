@@ -50,7 +50,7 @@ TEST(DrivenMotion, Has_the_accelerations_of_a_forced_run) {
     for (const DrivenPose& pose : follow_drives(driven, start, mobility, path, {16}).poses) {
       compute_motion(closed.mechanism, closed.parameters, pose.s, w);
       const auto qdd = Eigen::Map<const Eigen::VectorXd>(w.qdd.data(), closed.mechanism.nv);
-      const double crank = qdd[drive.velocity];
+      const double crank = qdd[drive.velocity.value()];
       EXPECT_GT(std::abs(crank), 1e-3);
       const DrivenRates rates = driven.rates(pose.s, one(kSpeed), one(crank));
       EXPECT_TRUE(near_relative(driven.scale().velocity.cwiseProduct(rates.second), qdd, 1e-9));

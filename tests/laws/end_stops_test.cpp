@@ -136,14 +136,14 @@ TEST(EndStops, Bear_in_statics_what_lies_on_them) {
   Model model = compile(linkage);
   const StaticsReport report = solve_statics(model, model.start);
   ASSERT_TRUE(report.converged) << report.reason;
-  const double depth = -0.1 - model.start.q[0];
-  const double moment = 2.0 * 9.81 * 0.5 * std::cos(model.start.q[0]);
+  const double depth = -0.1 - model.start.q[PositionIndex(0)];
+  const double moment = 2.0 * 9.81 * 0.5 * std::cos(model.start.q[PositionIndex(0)]);
   EXPECT_NEAR(1e6 * std::pow(depth, 1.5), moment, 1e-6);
   EXPECT_EQ(report.stability, Stability::stable);
-  const double weight = 2.0 * 9.81 * 0.5 * std::sin(model.start.q[0]);
+  const double weight = 2.0 * 9.81 * 0.5 * std::sin(model.start.q[PositionIndex(0)]);
   EXPECT_NEAR(report.smallest_stiffness, 1.5 * 1e6 * std::sqrt(depth) - weight, 1e-2);
   const Samples s = run(model, adaptive(0.1, 0.1), {"joint.A.q", "joint.A.stop.force"});
-  EXPECT_NEAR(s.values(1, 0), model.start.q[0], 1e-10);
+  EXPECT_NEAR(s.values(1, 0), model.start.q[PositionIndex(0)], 1e-10);
   EXPECT_NEAR(s.values(1, 1), moment, 1e-6);
 }
 
@@ -237,7 +237,7 @@ TEST(JointCurves, Count_in_statics_with_the_slope_where_they_rest) {
   const StaticsReport report = solve_statics(model, model.start);
   ASSERT_TRUE(report.converged) << report.reason;
   const double slope = 10.0 / 1e-4;
-  EXPECT_NEAR(model.start.q[0], -0.0999 - (kMass * kGravity - 15.0) / slope, 1e-12);
+  EXPECT_NEAR(model.start.q[PositionIndex(0)], -0.0999 - (kMass * kGravity - 15.0) / slope, 1e-12);
   EXPECT_NEAR(report.smallest_stiffness, slope, 1e-6);
 }
 

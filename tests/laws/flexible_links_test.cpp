@@ -136,7 +136,7 @@ TEST(FlexibleLinks, A_sagging_coupler_draws_the_slider_at_rest_in_by_the_square_
     const StaticsReport report = solve_statics(model, s);
     EXPECT_TRUE(report.converged);
     EXPECT_EQ(report.stability, Stability::stable);
-    return s.q[1];
+    return s.q[PositionIndex(1)];
   };
   const double rigid = slider_at_rest(linkage);
   EXPECT_NEAR(rigid, rsrrp_pose(M_PI).d, 1e-8);
@@ -155,7 +155,7 @@ TEST(FlexibleLinks, Vibration_fades_with_the_logarithmic_decrement_of_the_materi
   const double period = 2.0 * M_PI / (mode.omega * std::sqrt(1.0 - zeta * zeta));
   Model model = compile(linkage);
   for (std::size_t k = 0; k < model.start.q.size(); ++k) {
-    model.start.q[k] =
+    model.start.q[PositionIndex(k)] =
         1e-4 / mode.shape.cwiseAbs().maxCoeff() * mode.shape[static_cast<Eigen::Index>(k)];
   }
   const Samples s =
@@ -179,11 +179,11 @@ TEST(FlexibleLinks, A_start_is_closed_by_joints_and_not_by_bending_links) {
   int elements = 0;
   const Mechanism& m = p.model.mechanism;
   for (std::size_t b = 1; b < m.bodies.size(); ++b) {
-    if (m.joint_names[b].find("_sde") == std::string::npos) continue;
+    if (m.joint_names[BodyIndex(b)].find("_sde") == std::string::npos) continue;
     ++elements;
-    for (std::size_t i = 0; i < 3; ++i) {
-      EXPECT_EQ(p.model.start.q[static_cast<std::size_t>(m.bodies[b].q_begin) + i], 0.0);
-      EXPECT_EQ(p.model.start.v[static_cast<std::size_t>(m.bodies[b].v_begin) + i], 0.0);
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_EQ(p.model.start.q[m.bodies[BodyIndex(b)].q_begin + i], 0.0);
+      EXPECT_EQ(p.model.start.v[m.bodies[BodyIndex(b)].v_begin + i], 0.0);
     }
   }
   EXPECT_EQ(elements, 4);

@@ -98,9 +98,9 @@ TEST(PinInSlot, Is_assembled_where_it_is_nearest) {
   const Model closed = compile_closed(linkage);
   State<double> start = closed.start;
   ASSERT_TRUE(assemble_start(closed, start).closed);
-  EXPECT_NEAR(start.q[1], 0.3, 1e-9);
-  EXPECT_NEAR(start.q[2], 0.0, 1e-9);
-  EXPECT_NEAR(start.q[3], 0.0, 1e-9);
+  EXPECT_NEAR(start.q[PositionIndex(1)], 0.3, 1e-9);
+  EXPECT_NEAR(start.q[PositionIndex(2)], 0.0, 1e-9);
+  EXPECT_NEAR(start.q[PositionIndex(3)], 0.0, 1e-9);
 }
 
 }  // namespace linkstudy::testing::pin_in_slot_test

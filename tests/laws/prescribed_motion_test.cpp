@@ -57,15 +57,17 @@ Load effort_on(const std::string& joint, int coordinate, double value) {
 // A coordinate of every joint whose coordinates are no quaternion.
 struct Place {
   std::string joint;
-  int coordinate, q, v;
+  int coordinate;
+  PositionIndex q;
+  VelocityIndex v;
 };
 std::vector<Place> places_of(const Mechanism& m) {
   std::vector<Place> places;
   for (std::size_t b = 1; b < m.bodies.size(); ++b) {
-    const Body& body = m.bodies[b];
+    const Body& body = m.bodies[BodyIndex(b)];
     if (body.v_count == 0 || body.q_count != body.v_count) continue;
     const int i = static_cast<int>(b) % body.v_count;
-    places.push_back({m.joint_names[b], i, body.q_begin + i, body.v_begin + i});
+    places.push_back({m.joint_names[BodyIndex(b)], i, body.q_begin + i, body.v_begin + i});
   }
   return places;
 }
@@ -99,9 +101,8 @@ int expect_effort_is_torque(const Linkage& linkage) {
     with_torque.loads.push_back(effort_on(place.joint, place.coordinate, kTorque));
     EngineProbe forced(with_torque);
     Linkage with_motion = linkage;
-    with_motion.motions = {
-        sine_through(place.joint, place.coordinate, bare.start.q[static_cast<std::size_t>(place.q)],
-                     bare.start.v[static_cast<std::size_t>(place.v)], forced.qdd()[place.v])};
+    with_motion.motions = {sine_through(place.joint, place.coordinate, bare.start.q[place.q],
+                                        bare.start.v[place.v], forced.qdd()[place.v.value()])};
     if (!overdriven_text(compile(with_motion)).empty()) continue;
     ++count;
     EngineProbe driven(with_motion);
@@ -175,9 +176,8 @@ TEST(PrescribedMotion, Takes_the_torques_of_several_at_once) {
   EngineProbe forced(with_torques);
   for (const std::size_t i : {0u, 2u}) {
     const Place& p = places[i];
-    linkage.motions.push_back(sine_through(p.joint, 0, bare.start.q[static_cast<std::size_t>(p.q)],
-                                           bare.start.v[static_cast<std::size_t>(p.v)],
-                                           forced.qdd()[p.v]));
+    linkage.motions.push_back(
+        sine_through(p.joint, 0, bare.start.q[p.q], bare.start.v[p.v], forced.qdd()[p.v.value()]));
     linkage.motions.back().name = "m" + std::to_string(i);
   }
   EngineProbe driven(linkage);

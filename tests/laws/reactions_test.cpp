@@ -34,11 +34,11 @@ FreeBodyInput tree_ordered(const Linkage& linkage, const EngineProbe& engine) {
   for (const int j : tree_order(linkage)) {
     const std::string& name = linkage.joints[static_cast<std::size_t>(j)].name;
     const auto at = std::find(m.joint_names.begin(), m.joint_names.end(), name);
-    const Body& b = m.bodies[static_cast<std::size_t>(at - m.joint_names.begin())];
-    for (int k = 0; k < b.q_count; ++k) in.q[q++] = s.q[static_cast<std::size_t>(b.q_begin + k)];
+    const Body& b = m.bodies[BodyIndex(at - m.joint_names.begin())];
+    for (int k = 0; k < b.q_count; ++k) in.q[q++] = s.q[b.q_begin + k];
     for (int k = 0; k < b.v_count; ++k, ++v) {
-      in.v[v] = s.v[static_cast<std::size_t>(b.v_begin + k)];
-      in.a[v] = qdd[b.v_begin + k];
+      in.v[v] = s.v[b.v_begin + k];
+      in.a[v] = qdd[b.v_begin.value() + k];
     }
   }
   return in;

@@ -192,8 +192,10 @@ TEST(Rod, Is_assembled_along_its_line) {
   const Model closed = compile_closed(linkage);
   State<double> start = closed.start;
   ASSERT_TRUE(assemble_start(closed, start).closed);
-  EXPECT_NEAR(std::hypot(start.q[0], start.q[1], start.q[2]), kLength, 1e-12);
-  EXPECT_NEAR(start.q[0], -start.q[2], 1e-9);
+  EXPECT_NEAR(
+      std::hypot(start.q[PositionIndex(0)], start.q[PositionIndex(1)], start.q[PositionIndex(2)]),
+      kLength, 1e-12);
+  EXPECT_NEAR(start.q[PositionIndex(0)], -start.q[PositionIndex(2)], 1e-9);
 }
 
 // Four upright rods carry a table of which three would hold the height and tilts: each a quarter.

@@ -282,7 +282,8 @@ TEST(Lanes, Baseline_agrees_with_the_fused_sets_to_rounding) {
   run_cases(rounded, steps_of(1e-4, 1.0, 1e-2), {InstructionSet::baseline, 2});
   for (std::size_t i = 0; i < 2; ++i) {
     for (std::size_t k = 0; k < 4; ++k) {
-      EXPECT_NEAR(fused[i].outcome.final_state.q[k], rounded[i].outcome.final_state.q[k], 1e-10);
+      EXPECT_NEAR(fused[i].outcome.final_state.q[PositionIndex(k)],
+                  rounded[i].outcome.final_state.q[PositionIndex(k)], 1e-10);
     }
   }
 }
@@ -298,8 +299,8 @@ TEST(Lanes, Neither_order_nor_neighbours_change_a_bit) {
       std::vector<Case> odd = make_cases(linkage, level.lanes, steps);
       for (std::size_t i = 1; i < odd.size(); ++i) {
         const double bad = i % 2 == 0 ? 1e300 : std::numeric_limits<double>::quiet_NaN();
-        odd[i].model.parameters.bodies[1].mass = bad;
-        odd[i].model.start.v[0] = bad;
+        odd[i].model.parameters.bodies[BodyIndex(1)].mass = bad;
+        odd[i].model.start.v[VelocityIndex(0)] = bad;
       }
       run_cases(there, short_run(steps), level);
       run_cases(back, short_run(steps), level);
@@ -324,7 +325,7 @@ TEST(Lanes, A_lane_that_diverges_ends_as_it_would_alone_and_leaves_the_others) {
     const auto make = [&] {
       std::vector<Case> cases = make_cases(linkage, std::max(level.lanes, 2), steps);
       for (auto& s : cases[1].model.parameters.springs) s.stiffness = 1e9;  // far past the limit
-      cases[1].model.start.q[0] += 1e-6;
+      cases[1].model.start.q[PositionIndex(0)] += 1e-6;
       return cases;
     };
     std::vector<Case> packed = make(), alone = make();
@@ -359,7 +360,8 @@ TEST(Lanes, A_decaying_motion_ends_among_normal_numbers) {
     std::vector<Case> cases = make_cases(linkage, level.lanes, 6000);
     run_cases(cases, options, level);
     for (const Case& c : cases) {
-      EXPECT_LT(std::fabs(c.outcome.final_state.v[0]), 1e-306);  // steps too small to tell are lost
+      EXPECT_LT(std::fabs(c.outcome.final_state.v[VelocityIndex(0)]),
+                1e-306);  // steps too small to tell are lost
     }
     for (double x : cases[0].observers.series[0].values) {
       EXPECT_FALSE(x != 0.0 && std::fabs(x) < std::numeric_limits<double>::min()) << x;

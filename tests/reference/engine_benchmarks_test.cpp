@@ -28,7 +28,7 @@ void expect_test_vector(ClosureModel model, const std::array<double, 4>& expecte
   EXPECT_EQ(end.steps, 10000);
   // Twelve printed digits; rounding over 10000 steps stays below the last of them.
   for (std::size_t k = 0; k < 4; ++k) {
-    EXPECT_NEAR(end.final_state.q[k], expected[k], 1e-12 * (k == 0 ? 10 : 1)) << k;
+    EXPECT_NEAR(end.final_state.q[PositionIndex(k)], expected[k], 1e-12 * (k == 0 ? 10 : 1)) << k;
   }
 }
 
@@ -49,7 +49,7 @@ TEST(EngineRsrrp, The_cut_joint_opens_less_than_a_micrometre_in_fifteen_seconds_
   ASSERT_EQ(end.cause, Cause::ok);
   EXPECT_LT(end.drift_max, 1e-6);  // [Urbas16] sec. 5
   EXPECT_GT(end.drift_max, 0.0);
-  EXPECT_GT(end.final_state.q[0], 20 * M_PI) << "the crank turns all the while";
+  EXPECT_GT(end.final_state.q[PositionIndex(0)], 20 * M_PI) << "the crank turns all the while";
 }
 
 TEST(EngineRsrrp, The_slider_follows_its_closed_form_over_many_turns) {
@@ -76,10 +76,11 @@ TEST(EngineRsrrp, Wrong_starts_assemble_to_the_closed_form_over_a_full_turn) {
     linkage.joints[3].position = {pose.psi23 + random.within(0.2)};
     const Preparation p = prepare(linkage, steps_of(1e-4, 1.0));
     ASSERT_EQ(p.cause, Cause::ok) << p.message;
-    EXPECT_EQ(p.model.start.q[0], pose.psi);
-    EXPECT_NEAR(p.model.start.q[1], pose.d, 1e-8) << k;  // residual 1e-9 over the closure's slope
-    EXPECT_NEAR(p.model.start.q[2], pose.psi22, 1e-8) << k;
-    EXPECT_NEAR(p.model.start.q[3], pose.psi23, 1e-8) << k;
+    EXPECT_EQ(p.model.start.q[PositionIndex(0)], pose.psi);
+    EXPECT_NEAR(p.model.start.q[PositionIndex(1)], pose.d, 1e-8)
+        << k;  // residual 1e-9 over the closure's slope
+    EXPECT_NEAR(p.model.start.q[PositionIndex(2)], pose.psi22, 1e-8) << k;
+    EXPECT_NEAR(p.model.start.q[PositionIndex(3)], pose.psi23, 1e-8) << k;
   }
 }
 
@@ -102,11 +103,13 @@ TEST(EngineBenchmarks, The_pendulum_returns_after_its_period) {
   const Model model = compile(pendulum());
   const SimulationOutcome quarter =
       run(model, steps_of(kPendulumPeriod / 4000, kPendulumPeriod / 4));
-  EXPECT_NEAR(quarter.final_state.q[0], -M_PI / 2, 5e-9);  // ten printed digits of the period
-  EXPECT_NEAR(quarter.final_state.v[0], -std::sqrt(2 * 9.81), 1e-9);
+  EXPECT_NEAR(quarter.final_state.q[PositionIndex(0)], -M_PI / 2,
+              5e-9);  // ten printed digits of the period
+  EXPECT_NEAR(quarter.final_state.v[VelocityIndex(0)], -std::sqrt(2 * 9.81), 1e-9);
   const SimulationOutcome whole = run(model, steps_of(kPendulumPeriod / 4000, kPendulumPeriod));
-  EXPECT_NEAR(whole.final_state.q[0], 0.0, 1e-8);
-  EXPECT_NEAR(whole.final_state.v[0], 0.0, 2e-8);  // g / L times 5e-10 s of the printed period
+  EXPECT_NEAR(whole.final_state.q[PositionIndex(0)], 0.0, 1e-8);
+  EXPECT_NEAR(whole.final_state.v[VelocityIndex(0)], 0.0,
+              2e-8);  // g / L times 5e-10 s of the printed period
 }
 
 TEST(EngineBenchmarks, Two_square_four_bars_turn_in_the_published_time_past_singular_poses) {
@@ -119,10 +122,10 @@ TEST(EngineBenchmarks, Two_square_four_bars_turn_in_the_published_time_past_sing
     ASSERT_EQ(end.cause, Cause::ok) << end.message;
     EXPECT_TRUE(end.redundant);
     for (std::size_t b = 1; b < model.mechanism.bodies.size(); ++b) {
-      if (model.mechanism.joint_names[b][0] != 'A') continue;
-      const auto q = static_cast<std::size_t>(model.mechanism.bodies[b].q_begin);
-      EXPECT_NEAR(end.final_state.q[q], M_PI / 2 - 2 * M_PI, 2e-9) << steps;
-      EXPECT_NEAR(end.final_state.v[q], -1.0, 5e-9) << steps;
+      if (model.mechanism.joint_names[BodyIndex(b)][0] != 'A') continue;
+      const Body& link = model.mechanism.bodies[BodyIndex(b)];
+      EXPECT_NEAR(end.final_state.q[link.q_begin], M_PI / 2 - 2 * M_PI, 2e-9) << steps;
+      EXPECT_NEAR(end.final_state.v[link.v_begin], -1.0, 5e-9) << steps;
     }
   }
 }
@@ -224,9 +227,9 @@ TEST(EngineSqueezer, Ends_at_the_angles_of_the_ivp_test_set) {
       {"G", 0.534730116322690}};
   for (const auto& [joint, angle] : published) {
     const auto& names = p.model.mechanism.joint_names;
-    const auto body = static_cast<std::size_t>(std::ranges::find(names, joint) - names.begin());
-    const auto q = static_cast<std::size_t>(p.model.mechanism.bodies[body].q_begin);
-    EXPECT_NEAR(end.final_state.q[q], angle, 2e-9) << joint;  // of up to 16 rad
+    const BodyIndex body(std::ranges::find(names, joint) - names.begin());
+    const Body& link = p.model.mechanism.bodies[body];
+    EXPECT_NEAR(end.final_state.q[link.q_begin], angle, 2e-9) << joint;  // of up to 16 rad
   }
   EXPECT_LT(end.energy_residual_max, 1e-9 * end.energy_scale);
 }

@@ -68,8 +68,8 @@ Matrix EngineProbe::mass_matrix() const {
 std::vector<int> oracle_coordinates(const Mechanism& m, const TraceModel& trace) {
   std::vector<int> map;
   for (std::size_t b = 1; b < m.bodies.size(); ++b) {
-    const int first = coordinate_index(trace, m.joint_names[b]);
-    for (int k = 0; k < m.bodies[b].v_count; ++k) map.push_back(first + k);
+    const int first = coordinate_index(trace, m.joint_names[BodyIndex(b)]);
+    for (int k = 0; k < m.bodies[BodyIndex(b)].v_count; ++k) map.push_back(first + k);
   }
   return map;
 }

@@ -21,7 +21,7 @@ using Eigen::Vector3d;
 
 // Turn about x of the body at the end of a run.
 double turn_about_x(const State<double>& s) {
-  return 2.0 * std::atan2(s.q[1], s.q[0]);
+  return 2.0 * std::atan2(s.q[PositionIndex(1)], s.q[PositionIndex(0)]);
 }
 
 // Undamped modes of this frequency.
@@ -85,7 +85,7 @@ TEST(RotationVectorSde, A_swing_over_nearly_half_a_turn_stays_harmonic) {
   for (const double t : {0.1, 0.31, 1.0}) {
     const SimulationOutcome end = run(compile(bushing(data)), steps_of(1e-4, t));
     EXPECT_NEAR(turn_about_x(end.final_state), 3.0 * std::cos(w * t), 1e-9) << t;
-    EXPECT_NEAR(end.final_state.v[0], -3.0 * w * std::sin(w * t), 1e-8) << t;
+    EXPECT_NEAR(end.final_state.v[VelocityIndex(0)], -3.0 * w * std::sin(w * t), 1e-8) << t;
   }
 }
 
@@ -137,7 +137,7 @@ TEST(RotationVectorSde, Its_effective_mass_is_the_least_moment_of_inertia) {
     Bushing data;
     data.turn = {turn, 0, 0};
     const Model model = compile(bushing(data));
-    const double mass = compute_effective_mass(model, model.start, 0).rotation;
+    const double mass = compute_effective_mass(model, model.start, ClosureIndex(0)).rotation;
     // About the axis of the turn the gradient is one; across it 1 + (phi / 2)^2 / 3 and more, over
     // a larger inertia.
     EXPECT_NEAR(mass, 0.1, 1e-12) << turn;

@@ -167,8 +167,8 @@ TEST(Sde, Two_bodies_move_their_reduced_mass) {
   const double m1 = 3.0, m2 = 1.5;
   const Linkage linkage = two_bodies(m1, m2, 0.0, 1200.0);
   const Model model = compile(linkage);
-  EXPECT_NEAR(compute_effective_mass(model, model.start, 0).translation, m1 * m2 / (m1 + m2),
-              1e-14);
+  EXPECT_NEAR(compute_effective_mass(model, model.start, ClosureIndex(0)).translation,
+              m1 * m2 / (m1 + m2), 1e-14);
 }
 
 TEST(Sde, A_damping_ratio_gives_the_damping_of_the_reduced_mass) {
@@ -193,8 +193,8 @@ TEST(Sde, A_damper_takes_what_the_closed_motion_of_two_bodies_loses) {
   const double m = m1 * m2 / (m1 + m2), s = b / (2 * m), w = std::sqrt(c / m - s * s);
   const double x = std::exp(-s * t) * x0 * (std::cos(w * t) + s / w * std::sin(w * t));
   const double v = -std::exp(-s * t) * x0 * (w + s * s / w) * std::sin(w * t);
-  EXPECT_NEAR(end.final_state.q[1] - end.final_state.q[0], x, 1e-9);
-  EXPECT_NEAR(end.final_state.v[1] - end.final_state.v[0], v, 1e-8);
+  EXPECT_NEAR(end.final_state.q[PositionIndex(1)] - end.final_state.q[PositionIndex(0)], x, 1e-9);
+  EXPECT_NEAR(end.final_state.v[VelocityIndex(1)] - end.final_state.v[VelocityIndex(0)], v, 1e-8);
   const double lost = 0.5 * c * (x0 * x0 - x * x) - 0.5 * m * v * v;
   EXPECT_NEAR(end.final_state.dissipated, lost, 1e-8 * lost);
   EXPECT_EQ(end.final_state.supplied, 0.0);

@@ -28,12 +28,14 @@ class Rates {
     const Mechanism& m = model_.mechanism;
     const double* q = x.data();
     const double* v = q + m.nq;
-    for (int i = 0; i < m.nz; ++i) w.z[static_cast<std::size_t>(i)] = v[m.nv + i];
+    for (int i = 0; i < m.nz; ++i) w.z[BristleIndex(i)] = v[m.nv + i];
     evaluate(m, model_.parameters, t, q, v, w);
     VectorXd rates(x.size() + 2);
-    for (const Stage& s : m.stages) position_rates(s, q + s.q, v + s.v, rates.data() + s.q);
-    for (int k = 0; k < m.nv; ++k) rates[m.nq + k] = w.qdd[static_cast<std::size_t>(k)];
-    for (int i = 0; i < m.nz; ++i) rates[m.nq + m.nv + i] = w.z_rate[static_cast<std::size_t>(i)];
+    for (const Stage& s : m.stages) {
+      position_rates(s, q + s.q.value(), v + s.v.value(), rates.data() + s.q.value());
+    }
+    for (int k = 0; k < m.nv; ++k) rates[m.nq + k] = w.qdd[VelocityIndex(k)];
+    for (int i = 0; i < m.nz; ++i) rates[m.nq + m.nv + i] = w.z_rate[BristleIndex(i)];
     rates.tail<2>() << w.supplied_power, w.dissipated_power;
     return rates;
   }

@@ -201,7 +201,7 @@ TEST(StepLimit, A_run_just_below_it_stays_bounded_and_just_above_it_ends_with_a_
     const Model model = compile(linkage);
     const SimulationOutcome below = run(model, steps_of(0.995 * limit, 20.0, 0.01));
     EXPECT_EQ(below.cause, Cause::ok) << below.message;
-    EXPECT_LT(std::abs(below.final_state.q[0]), 0.011);
+    EXPECT_LT(std::abs(below.final_state.q[PositionIndex(0)]), 0.011);
     const SimulationOutcome above = run(model, steps_of(1.02 * limit, 20.0, 0.01));
     EXPECT_TRUE(above.cause == Cause::diverged || above.cause == Cause::energy_blowup)
         << name_of(above.cause);

@@ -134,7 +134,7 @@ TEST(StaticReactions, A_held_block_on_an_incline_stays_and_its_hold_bears_the_sl
   linkage.joints[0].position = {0.4};
   const Rest rest = rest_of(linkage);
   ASSERT_TRUE(rest.report.converged);
-  EXPECT_EQ(rest.state.q[0], 0.4);
+  EXPECT_EQ(rest.state.q[PositionIndex(0)], 0.4);
   EXPECT_EQ(rest.report.directions, 0);
   EXPECT_EQ(rest.report.stability, Stability::stable);
   EXPECT_NEAR(rest.report.holding[0], 2.0 * kGravity * std::sin(slope), 1e-12);
@@ -205,7 +205,9 @@ TEST(StaticReactions, A_held_platform_reports_the_thrust_of_its_legs) {
   const Vector3d leg(0.6 * std::cos(angle) - 1.0, 0.6 * std::sin(angle), 1.1);
   const double c = 1.1 / leg.norm();
   const double thrust = (1.0 / 6.0 + 0.5) * kGravity / c + 0.5 * kGravity * c;
-  for (const int k : rest.model.held) EXPECT_NEAR(rest.report.holding[k], thrust, 1e-9);
+  for (const VelocityIndex k : rest.model.held) {
+    EXPECT_NEAR(rest.report.holding[k.value()], thrust, 1e-9);
+  }
 }
 
 TEST(StaticReactions, A_truss_below_its_limit_load_rests_where_the_closed_form_says) {
@@ -218,8 +220,8 @@ TEST(StaticReactions, A_truss_below_its_limit_load_rests_where_the_closed_form_s
     const double height = truss_height(data, force, false);
     const double q = std::atan2(height, data.half_span);
     // Near the limit the height goes as the root of the load that is left over: 1e-9 of it.
-    EXPECT_NEAR(rest.state.q[0], q, 1e-7) << part;
-    EXPECT_NEAR(rest.state.q[1], std::hypot(data.half_span, height), 1e-7) << part;
+    EXPECT_NEAR(rest.state.q[PositionIndex(0)], q, 1e-7) << part;
+    EXPECT_NEAR(rest.state.q[PositionIndex(1)], std::hypot(data.half_span, height), 1e-7) << part;
     EXPECT_NEAR(values_of(rest, {"joint.A1.force"})[1], 0.5 * force, 1e-6);
   }
 }
@@ -232,7 +234,7 @@ TEST(StaticReactions, A_truss_past_its_limit_load_rests_snapped_through) {
     ASSERT_TRUE(rest.report.converged) << part << rest.report.reason;
     EXPECT_EQ(rest.report.stability, Stability::stable) << part;
     const double height = truss_height(data, force, true);
-    EXPECT_NEAR(rest.state.q[1], std::hypot(data.half_span, height), 1e-7) << part;
+    EXPECT_NEAR(rest.state.q[PositionIndex(1)], std::hypot(data.half_span, height), 1e-7) << part;
     EXPECT_GT(rest.report.displacement, 0.5);
   }
 }

@@ -75,7 +75,7 @@ TEST(Statics, A_pendulum_hangs_straight_down_and_is_stable) {
   const Linkage linkage = pendulum_at(-M_PI / 2 + 0.7);
   const Equilibrium e = equilibrium_of(linkage);
   ASSERT_TRUE(e.report.converged);
-  EXPECT_NEAR(e.state.q[0], -M_PI / 2, 1e-9);
+  EXPECT_NEAR(e.state.q[PositionIndex(0)], -M_PI / 2, 1e-9);
   EXPECT_EQ(e.report.stability, Stability::stable);
   EXPECT_NEAR(e.report.smallest_stiffness, 2.0 * 9.81 * 0.5, 1e-6);  // m g L
   EXPECT_NEAR(e.report.displacement, 0.7, 1e-9);
@@ -86,7 +86,7 @@ TEST(Statics, A_pendulum_hangs_straight_down_and_is_stable) {
 TEST(Statics, An_inverted_pendulum_stands_and_is_unstable) {
   const Equilibrium e = equilibrium_of(pendulum_at(M_PI / 2 - 0.2));
   ASSERT_TRUE(e.report.converged);
-  EXPECT_NEAR(e.state.q[0], M_PI / 2, 1e-9);
+  EXPECT_NEAR(e.state.q[PositionIndex(0)], M_PI / 2, 1e-9);
   EXPECT_EQ(e.report.stability, Stability::unstable);
   EXPECT_NEAR(e.report.smallest_stiffness, -2.0 * 9.81 * 0.5, 1e-6);
 }
@@ -96,14 +96,14 @@ TEST(Statics, A_pendulum_without_weight_rests_anywhere) {
   linkage.gravity = Vector3d(0, 0, -9.81);  // along its axis
   const Equilibrium e = equilibrium_of(linkage);
   ASSERT_TRUE(e.report.converged);
-  EXPECT_EQ(e.state.q[0], 0.3);
+  EXPECT_EQ(e.state.q[PositionIndex(0)], 0.3);
   EXPECT_EQ(e.report.stability, Stability::neutral);
 }
 
 TEST(Statics, A_mass_stretches_its_spring_by_its_weight) {
   const Equilibrium e = equilibrium_of(hanging_mass(2.5, 800.0));
   ASSERT_TRUE(e.report.converged);
-  EXPECT_NEAR(e.state.q[0], -2.5 * 9.81 / 800.0, 1e-10);
+  EXPECT_NEAR(e.state.q[PositionIndex(0)], -2.5 * 9.81 / 800.0, 1e-10);
   EXPECT_EQ(e.report.stability, Stability::stable);
   EXPECT_NEAR(e.report.smallest_stiffness, 800.0, 1e-4);
   EngineProbe engine(hanging_mass(2.5, 800.0));
@@ -115,7 +115,7 @@ TEST(Statics, A_falling_mass_has_no_equilibrium_and_keeps_its_state) {
   const Equilibrium e = equilibrium_of(hanging_mass(2.5, 0.0));
   EXPECT_FALSE(e.report.converged);
   EXPECT_NEAR(e.report.force_residual, 2.5 * 9.81, 1e-9);
-  EXPECT_EQ(e.state.q[0], 0.0);
+  EXPECT_EQ(e.state.q[PositionIndex(0)], 0.0);
 }
 
 // One freedom: the potential energy along the closed form is stationary there. Found without the
@@ -126,11 +126,12 @@ TEST(Statics, The_cut_linkage_rests_where_its_closed_potential_is_stationary) {
   ASSERT_TRUE(e.report.converged);
   EXPECT_EQ(e.report.stability, Stability::stable);
   // Heights: crank's centre 0.05 cos psi; the coupler's centre halfway between pin and tip.
-  EXPECT_NEAR(std::cos(e.state.q[0]), -1.0, 1e-12) << "all centres are lowest at the bottom";
+  EXPECT_NEAR(std::cos(e.state.q[PositionIndex(0)]), -1.0, 1e-12)
+      << "all centres are lowest at the bottom";
   EXPECT_LT(e.report.closure_residual, 1e-9);
   EXPECT_LT(acceleration_at(linkage, e.state), 1e-5);
   const RsrrpPose bottom = rsrrp_pose(M_PI);
-  EXPECT_NEAR(e.state.q[1], bottom.d, 1e-8);
+  EXPECT_NEAR(e.state.q[PositionIndex(1)], bottom.d, 1e-8);
 }
 
 TEST(Statics, A_stiff_replacement_rests_where_the_cut_joint_does_with_the_same_force) {
@@ -151,7 +152,8 @@ TEST(Statics, A_stiff_replacement_rests_where_the_cut_joint_does_with_the_same_f
     EXPECT_TRUE(near_relative(force, Vector3d(exact.report.multipliers), 20.0 / c * 100));
     double apart = 0.0;
     for (std::size_t k = 0; k < 4; ++k) {
-      apart = std::max(apart, std::abs(soft.state.q[k] - exact.state.q[k]));
+      apart = std::max(apart,
+                       std::abs(soft.state.q[PositionIndex(k)] - exact.state.q[PositionIndex(k)]));
     }
     EXPECT_LT(apart, 100.0 / c);  // some ten newtons over c, and levers
     if (last > 0.0) {
@@ -195,8 +197,9 @@ TEST(Statics, A_linkage_far_from_the_origin_rests_as_it_does_at_home) {
   ASSERT_TRUE(home.report.converged);
   ASSERT_TRUE(far.report.converged) << far.report.force_residual;
   EXPECT_LT(far.report.force_residual, 1e-2);  // 1e8 N/m times the rounding of 1e4 m
-  for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(far.state.q[k], home.state.q[k], 1e-2);
-  EXPECT_NEAR(far.state.q[1], home.state.q[1], 1e-4);
+  for (std::size_t k = 0; k < 4; ++k)
+    EXPECT_NEAR(far.state.q[PositionIndex(k)], home.state.q[PositionIndex(k)], 1e-2);
+  EXPECT_NEAR(far.state.q[PositionIndex(1)], home.state.q[PositionIndex(1)], 1e-4);
 }
 
 TEST(Statics, A_strong_resistance_does_not_blunt_the_search) {
@@ -209,7 +212,7 @@ TEST(Statics, A_strong_resistance_does_not_blunt_the_search) {
   linkage.loads = {brake};
   const Equilibrium e = equilibrium_of(linkage);
   ASSERT_TRUE(e.report.converged);
-  EXPECT_NEAR(e.state.q[0], -M_PI / 2, 1e-9);
+  EXPECT_NEAR(e.state.q[PositionIndex(0)], -M_PI / 2, 1e-9);
 }
 
 TEST(Statics, A_drive_counts_with_its_value_at_the_time_of_the_state) {
@@ -221,7 +224,7 @@ TEST(Statics, A_drive_counts_with_its_value_at_the_time_of_the_state) {
   linkage.loads = {drive};
   const Equilibrium e = equilibrium_of(linkage, 2.0);
   ASSERT_TRUE(e.report.converged);
-  EXPECT_NEAR(e.state.q[0], -M_PI / 2 + std::asin(5.0 / (2.0 * 9.81 * 0.5)), 1e-9);
+  EXPECT_NEAR(e.state.q[PositionIndex(0)], -M_PI / 2 + std::asin(5.0 / (2.0 * 9.81 * 0.5)), 1e-9);
 }
 
 TEST(Statics, A_planar_four_bar_with_redundant_rows_finds_its_rest) {
@@ -246,7 +249,7 @@ TEST(Statics, A_lever_on_a_spring_without_free_length_rests_at_every_angle) {
     lever.springs = {spring};
     const Equilibrium e = equilibrium_of(lever);
     ASSERT_TRUE(e.report.converged);
-    EXPECT_NEAR(e.state.q[0], angle, 1e-9);
+    EXPECT_NEAR(e.state.q[PositionIndex(0)], angle, 1e-9);
     EXPECT_EQ(e.report.stability, Stability::neutral);
     EXPECT_NEAR(e.report.smallest_stiffness, 0.0, 1e-8);
   }
@@ -272,7 +275,7 @@ TEST(Statics, A_lever_on_a_strut_has_the_stiffness_of_its_closed_form) {
     linkage.springs = {strut};
     const Equilibrium e = equilibrium_of(linkage);
     ASSERT_TRUE(e.report.converged);
-    EXPECT_NEAR(e.state.q[0], 0.0, 1e-10);
+    EXPECT_NEAR(e.state.q[PositionIndex(0)], 0.0, 1e-10);
     // V = k/2 (l - l_0)^2 + W r sin q with l^2 = a^2 + f^2 - 2 a f cos(q - phi), f, phi of the
     // foot: l l' = a f sin(q - phi), l'^2 + l l'' = a f cos(q - phi).
     const double af = arm * foot.norm(), phi = std::atan2(foot.y(), foot.x());
@@ -306,7 +309,7 @@ TEST(Statics, Springs_that_bend_count_with_the_slope_where_they_rest) {
   linkage.joints[0].position = {-0.10015};
   const Equilibrium e = equilibrium_of(linkage);
   ASSERT_TRUE(e.report.converged);
-  EXPECT_NEAR(e.state.q[0], -(0.1 + 0.0002 * (9.81 - 9.0) / 2.0), 1e-12);
+  EXPECT_NEAR(e.state.q[PositionIndex(0)], -(0.1 + 0.0002 * (9.81 - 9.0) / 2.0), 1e-12);
   EXPECT_NEAR(e.report.smallest_stiffness, 2.0 / 0.0002, 1e-6);
 }
 

@@ -54,7 +54,7 @@ Bent bend(Linkage linkage, const Load& load) {
   const TraceModel trace = make_trace_model(expanded);
   const std::vector<int> order = oracle_coordinates(model.mechanism, trace);
   Vector q(trace.dof);
-  for (std::size_t k = 0; k < order.size(); ++k) q[order[k]] = s.q[k];
+  for (std::size_t k = 0; k < order.size(); ++k) q[order[k]] = s.q[PositionIndex(k)];
   const auto transforms = link_transforms(trace, q);
   const int element = link_index(trace, expanded.loads[0].link);
   const Matrix3d turned = transforms[static_cast<std::size_t>(element)].T.topLeftCorner<3, 3>();

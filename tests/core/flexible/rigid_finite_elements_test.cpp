@@ -85,9 +85,10 @@ std::vector<int> velocities_of(const Mechanism& of, const Mechanism& model) {
   std::vector<int> map;
   for (std::size_t b = 1; b < of.bodies.size(); ++b) {
     const auto at =
-        std::find(model.joint_names.begin(), model.joint_names.end(), of.joint_names[b]);
-    const auto body = static_cast<std::size_t>(at - model.joint_names.begin());
-    for (int k = 0; k < of.bodies[b].v_count; ++k) map.push_back(model.bodies[body].v_begin + k);
+        std::find(model.joint_names.begin(), model.joint_names.end(), of.joint_names[BodyIndex(b)]);
+    const BodyIndex body(at - model.joint_names.begin());
+    for (int k = 0; k < of.bodies[BodyIndex(b)].v_count; ++k)
+      map.push_back(model.bodies[body].v_begin.value() + k);
   }
   return map;
 }

@@ -46,8 +46,8 @@ Openness openness(const Linkage& linkage, const State<double>& s) {
   const auto map = oracle_coordinates(compile(closed).mechanism, trace);
   Vector q(trace.dof), v(trace.dof);
   for (std::size_t k = 0; k < map.size(); ++k) {
-    q[map[k]] = s.q[k];
-    v[map[k]] = s.v[k];
+    q[map[k]] = s.q[PositionIndex(k)];
+    v[map[k]] = s.v[VelocityIndex(k)];
   }
   const Constraints c = cut_constraints(trace, q, v);
   return {c.value.norm(), (c.jacobian * v).norm()};
@@ -169,10 +169,10 @@ TEST(Assembly, Held_joints_keep_position_and_velocity) {
     linkage.joints[0].hold = true;
     const Assembled a = assembled(linkage);
     ASSERT_TRUE(a.report.closed) << exact.name;
-    const auto q = static_cast<std::size_t>(a.closed.mechanism.bodies[1].q_begin);
-    EXPECT_EQ(a.closed.mechanism.joint_names[1], linkage.joints[0].name);
-    EXPECT_EQ(a.start.q[q], linkage.joints[0].position[0]) << exact.name;
-    EXPECT_EQ(a.start.v[q], 0.7) << exact.name;
+    const Body& link = a.closed.mechanism.bodies[BodyIndex(1)];
+    EXPECT_EQ(a.closed.mechanism.joint_names[BodyIndex(1)], linkage.joints[0].name);
+    EXPECT_EQ(a.start.q[link.q_begin], linkage.joints[0].position[0]) << exact.name;
+    EXPECT_EQ(a.start.v[link.v_begin], 0.7) << exact.name;
     EXPECT_LE(openness(linkage, a.start).velocity, 1e-9) << exact.name;
   }
 }
@@ -184,7 +184,8 @@ TEST(Assembly, The_two_assembly_modes_of_a_four_bar_are_two_branches) {
   const Assembled other = assembled(crossed);
   ASSERT_TRUE(open.report.closed);
   ASSERT_TRUE(other.report.closed);
-  EXPECT_GT(std::abs(other.start.q[2] - open.start.q[2]), 0.5) << "another mode";
+  EXPECT_GT(std::abs(other.start.q[PositionIndex(2)] - open.start.q[PositionIndex(2)]), 0.5)
+      << "another mode";
   EXPECT_EQ(open.report.mobility, 1);
   EXPECT_EQ(open.report.rank, 2);
   EXPECT_EQ(open.report.rows, 5);
@@ -219,7 +220,8 @@ TEST(Assembly, A_start_more_than_a_right_angle_off_closes_with_aligned_axes) {
         const Assembled a = assembled(turned_body(type, angle, axis));
         ASSERT_TRUE(a.report.closed) << angle;
         EXPECT_TRUE(a.report.flipped.empty()) << angle;
-        const Eigen::Quaterniond h(a.start.q[0], a.start.q[1], a.start.q[2], a.start.q[3]);
+        const Eigen::Quaterniond h(a.start.q[PositionIndex(0)], a.start.q[PositionIndex(1)],
+                                   a.start.q[PositionIndex(2)], a.start.q[PositionIndex(3)]);
         const Eigen::Matrix3d r = h.toRotationMatrix();
         EXPECT_NEAR(r(0, 0), 1.0, 1e-12) << angle;
         if (type == JointType::fixed) {
@@ -291,8 +293,8 @@ TEST(Assembly, Tells_the_same_branch_by_angles_and_by_quaternions) {
       const auto& joints = by_angles.closed.mechanism.joint_names;
       for (Joint& joint : there.joints) {
         const auto body = std::find(joints.begin(), joints.end(), joint.name) - joints.begin();
-        const Body& b = by_angles.closed.mechanism.bodies[static_cast<std::size_t>(body)];
-        const auto q = by_angles.start.q.begin() + b.q_begin;
+        const Body& b = by_angles.closed.mechanism.bodies[BodyIndex(body)];
+        const auto q = by_angles.start.q.begin() + b.q_begin.value();
         joint.position.assign(q, q + b.q_count);
       }
       const Assembled by_quaternions = assembled(with_quaternions(there));

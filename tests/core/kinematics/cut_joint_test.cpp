@@ -28,7 +28,7 @@ class Moving {
  public:
   Moving(std::uint64_t seed, JointType type)
       : closed_(compile_closed(random_closed_linkage(seed, type, ClosureModel::cut))),
-        joint_(cut_joint_of(closed_.mechanism, 0)),
+        joint_(cut_joint_of(closed_.mechanism, ClosureIndex(0))),
         scale_(find_closure_scale(closed_, closed_.start)) {
     const ScaledClosures c = compute_scaled_closures(closed_, scale_, closed_.start);
     const VectorXd free = VectorXd::LinSpaced(closed_.mechanism.nv, -1.0, 1.5);

@@ -49,13 +49,13 @@ class Driven {
 
   // q, v or a of a joint's coordinate at a speed of the drive.
   double q(const DrivenPose& pose, const std::string& joint, int i = 0) const {
-    return pose.s.q[static_cast<std::size_t>(body(joint).q_begin + i)];
+    return pose.s.q[body(joint).q_begin + i];
   }
   double v(const DrivenPose& pose, double speed, const std::string& joint, int i = 0) const {
-    return speed * pose.s.v[static_cast<std::size_t>(body(joint).v_begin + i)];
+    return speed * pose.s.v[body(joint).v_begin + i];
   }
   double a(const DrivenPose& pose, double speed, const std::string& joint, int i = 0) const {
-    return speed * speed * pose.a[static_cast<std::size_t>(body(joint).v_begin + i)];
+    return speed * speed * pose.a[body(joint).v_begin.value() + i];
   }
 
  private:

@@ -98,7 +98,7 @@ TEST(BasicLoops, Go_round_from_where_their_ways_meet) {
   const auto bar = find_basic_loops(compile_closed(four_bar()).mechanism);
   ASSERT_EQ(bar.size(), 1u);
   EXPECT_THAT(bar[0].joints, ElementsAre("joint.A", "joint.B", "closure.C", "joint.D"));
-  EXPECT_EQ(bar[0].common, 0);
+  EXPECT_EQ(bar[0].common, kGroundBody);
   const auto platform = find_basic_loops(compile_closed(stewart_platform()).mechanism);
   ASSERT_EQ(platform.size(), 5u);
   EXPECT_THAT(platform[1].joints, ElementsAre("joint.U3", "joint.P3", "closure.S3", "joint.S1",
@@ -116,11 +116,11 @@ TEST(BasicLoops, Leave_out_what_both_ways_share) {
   const Model closed = compile_closed(linkage);
   const BasicLoop loop = find_basic_loops(closed.mechanism).front();
   EXPECT_THAT(loop.joints, ElementsAre("joint.A", "joint.B", "closure.C", "joint.D"));
-  EXPECT_EQ(closed.mechanism.link_names[static_cast<std::size_t>(loop.common)], "frame");
+  EXPECT_EQ(closed.mechanism.link_names[loop.common], "frame");
   const ClosureScale scale = find_closure_scale(closed, closed.start);
   const LoopEquations equations(closed, scale, loop);
   State<double> turned = closed.start;
-  turned.q[0] = 0.8;
+  turned.q[PositionIndex(0)] = 0.8;
   const VectorXd cut = equations.cut_position(closed.start);
   EXPECT_TRUE(near_absolute(equations.residual(turned, cut), VectorXd::Zero(kElements), 1e-14));
   EXPECT_TRUE(
@@ -218,7 +218,7 @@ TEST(ProperElements, Close_the_loop_by_Newton_Raphson) {
     const ProperElements proper = choose_proper_elements(loop.dependent_jacobian(0));
     const bool is_determined = proper.elements.size() == columns.size();
     State<double> s = loop.pose();
-    s.q[0] += 0.05;
+    s.q[PositionIndex(0)] += 0.05;
     State<double> fast = s;
     VectorXd cut = equations.cut_position(loop.pose());
     for (int i = 0; i < 10; ++i) {

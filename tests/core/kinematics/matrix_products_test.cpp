@@ -59,15 +59,16 @@ class Recursion {
  private:
   MovingFrame frame_of(const BodyState<double>& body) const {
     MovingFrame frame;
-    const Eigen::Matrix3d W = cross_matrix(to_vector(body.omega));
+    const Eigen::Matrix3d W = cross_matrix(to_vector(body.w_WB));
     Eigen::Matrix3d R;
-    R << to_vector(body.r.x), to_vector(body.r.y), to_vector(body.r.z);
+    R << to_vector(body.R_WB.x), to_vector(body.R_WB.y), to_vector(body.R_WB.z);
     frame.T.topLeftCorner<3, 3>() = R;
-    frame.T.topRightCorner<3, 1>() = to_vector(body.p);
+    frame.T.topRightCorner<3, 1>() = to_vector(body.p_WB);
     frame.T_dot.topLeftCorner<3, 3>() = W * R;
-    frame.T_dot.topRightCorner<3, 1>() = to_vector(body.v);
-    frame.T_ddot.topLeftCorner<3, 3>() = (cross_matrix(to_vector(body.alpha)) + W * W) * R;
-    frame.T_ddot.topRightCorner<3, 1>() = to_vector(body.a) + to_vector(model_.parameters.gravity);
+    frame.T_dot.topRightCorner<3, 1>() = to_vector(body.v_WB);
+    frame.T_ddot.topLeftCorner<3, 3>() = (cross_matrix(to_vector(body.alpha_WB)) + W * W) * R;
+    frame.T_ddot.topRightCorner<3, 1>() =
+        to_vector(body.a_WB) + to_vector(model_.parameters.gravity);
     return frame;
   }
 
@@ -86,7 +87,7 @@ class Products {
   Products(const Linkage& linkage, const Mechanism& m)
       : trace_(make_trace_model(linkage)), map_(oracle_coordinates(m, trace_)) {
     for (std::size_t b = 1; b < m.bodies.size(); ++b) {
-      const Joint& joint = joint_named(linkage, m.joint_names[b]);
+      const Joint& joint = joint_named(linkage, m.joint_names[BodyIndex(b)]);
       frames_.push_back({link_index(trace_, joint.child), transform(joint.child_frame)});
     }
   }
@@ -290,7 +291,7 @@ TEST(MatrixProducts, Give_velocities_and_accelerations_of_driven_linkages) {
     ASSERT_EQ(turn.cycle.poses.size(), 25u);
     const TraceModel trace = make_trace_model(linkage);
     const auto map = oracle_coordinates(turn.model.mechanism, trace);
-    const int n = map[static_cast<std::size_t>(turn.drive.velocity)];
+    const int n = map[static_cast<std::size_t>(turn.drive.velocity.value())];
     for (const DrivenPose& pose : turn.cycle.poses) {
       const Vector q = of_products(to_vector(pose.s.q), map);
       const DrivenRates rates =

@@ -38,7 +38,7 @@ class Followed {
     const auto& names = closed_.mechanism.joint_names;
     const auto at = std::find(names.begin(), names.end(), joint) - names.begin();
     const Body& body = closed_.mechanism.bodies.at(static_cast<std::size_t>(at));
-    return pose.s.q[static_cast<std::size_t>(body.q_begin)];
+    return pose.s.q[body.q_begin];
   }
 
  private:
@@ -181,7 +181,9 @@ TEST(NearSingular, Accelerations_of_undetermined_freedoms_are_derivatives) {
   const double h = cycle.poses[1].time;
   double fastest = 0.0;
   for (std::size_t i = 2; i + 2 < cycle.poses.size(); i += 7) {
-    const auto v = [&](std::size_t at, std::size_t k) { return cycle.poses[at].s.v[k]; };
+    const auto v = [&](std::size_t at, std::size_t k) {
+      return cycle.poses[at].s.v[VelocityIndex(k)];
+    };
     for (std::size_t k = 0; k < cycle.poses[i].a.size(); ++k) {
       const double slope =
           (8 * (v(i + 1, k) - v(i - 1, k)) - (v(i + 2, k) - v(i - 2, k))) / (12 * h);

@@ -46,8 +46,7 @@ class DrivenTogether {
   std::size_t velocity(const std::string& joint) const {
     const auto& names = closed_.mechanism.joint_names;
     const auto at = std::find(names.begin(), names.end(), joint) - names.begin();
-    return static_cast<std::size_t>(
-        closed_.mechanism.bodies.at(static_cast<std::size_t>(at)).v_begin);
+    return static_cast<std::size_t>(closed_.mechanism.bodies[BodyIndex(at)].v_begin.value());
   }
 
  private:
@@ -106,10 +105,10 @@ TEST(SeveralDrives, Of_two_cranks_on_different_laws_follows_the_closed_form) {
   const auto rod = [&](double t) { return g.rod_turn(crank(t), other(t)) - crank(t); };
   for (const DrivenPose& pose : cycle.poses) {
     const std::size_t a = bars.velocity("A"), b = bars.velocity("B");
-    EXPECT_NEAR(pose.s.q[a], crank(pose.time), 1e-14);
-    EXPECT_NEAR(pose.s.v[a], slope(crank, pose.time), 1e-9);
-    EXPECT_NEAR(pose.s.q[b], rod(pose.time), kExact);
-    EXPECT_NEAR(pose.s.v[b], slope(rod, pose.time), kExact);
+    EXPECT_NEAR(pose.s.q[PositionIndex(a)], crank(pose.time), 1e-14);
+    EXPECT_NEAR(pose.s.v[VelocityIndex(a)], slope(crank, pose.time), 1e-9);
+    EXPECT_NEAR(pose.s.q[PositionIndex(b)], rod(pose.time), kExact);
+    EXPECT_NEAR(pose.s.v[VelocityIndex(b)], slope(rod, pose.time), kExact);
     EXPECT_NEAR(pose.a[b], curvature(rod, pose.time), 1e-7);
   }
 }
@@ -169,9 +168,10 @@ TEST(SeveralDrives, May_stand_still_and_turn_back) {
   ASSERT_TRUE(cycle.is_complete);
   for (const DrivenPose& pose : cycle.poses) {
     const std::size_t d = bar.velocity("D");
-    const FourBarPose p = four_bar_pose(pose.drive[0], pose.s.v[bar.velocity("A")], g);
-    EXPECT_NEAR(std::remainder(pose.s.q[d] - p.rocker, 2 * M_PI), 0.0, kExact);
-    EXPECT_NEAR(pose.s.v[d], p.rocker_rate, kExact);
+    const FourBarPose p =
+        four_bar_pose(pose.drive[0], pose.s.v[VelocityIndex(bar.velocity("A"))], g);
+    EXPECT_NEAR(std::remainder(pose.s.q[PositionIndex(d)] - p.rocker, 2 * M_PI), 0.0, kExact);
+    EXPECT_NEAR(pose.s.v[VelocityIndex(d)], p.rocker_rate, kExact);
   }
 }
 
@@ -182,9 +182,9 @@ TEST(SeveralDrives, Holds_a_drive_that_rests_beside_one_that_moves) {
   ASSERT_TRUE(cycle.is_complete);
   const FiveBar g;
   for (const DrivenPose& pose : cycle.poses) {
-    EXPECT_EQ(pose.s.q[bars.velocity("E")], 0.0);
-    EXPECT_NEAR(pose.s.q[bars.velocity("B")], g.rod_turn(pose.drive[0], 0.0) - pose.drive[0],
-                kExact);
+    EXPECT_EQ(pose.s.q[PositionIndex(bars.velocity("E"))], 0.0);
+    EXPECT_NEAR(pose.s.q[PositionIndex(bars.velocity("B"))],
+                g.rod_turn(pose.drive[0], 0.0) - pose.drive[0], kExact);
   }
 }
 

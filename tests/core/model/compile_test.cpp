@@ -30,7 +30,7 @@ Linkage slide(const Matrix3d& rotation) {
 }
 
 RotationShape shape_of(const Matrix3d& rotation) {
-  return compile(slide(rotation)).mechanism.bodies[1].frame;
+  return compile(slide(rotation)).mechanism.bodies[BodyIndex(1)].frame;
 }
 
 // Where the engine puts the body, and where its axes point.
@@ -39,7 +39,7 @@ BodyState<double> place(const Matrix3d& rotation) {
   Workspace<double> w = make_workspace<double>(model.mechanism);
   update_kinematics(model.mechanism, model.parameters, model.start.q.data(), model.start.v.data(),
                     w);
-  return w.bodies[1];
+  return w.bodies[BodyIndex(1)];
 }
 
 Matrix3d turned(double angle, int axis) {
@@ -54,8 +54,8 @@ TEST(Compile, A_tilt_below_the_root_of_rounding_is_still_a_tilt) {
       EXPECT_EQ(shape_of(turned(angle, axis)), RotationShape::general) << angle;
     }
     const BodyState<double> tilted = place(turned(angle, 0));
-    EXPECT_EQ(tilted.p.y, -std::sin(angle)) << angle;
-    EXPECT_EQ(tilted.r.y.z, std::sin(angle)) << angle;
+    EXPECT_EQ(tilted.p_WB.y, -std::sin(angle)) << angle;
+    EXPECT_EQ(tilted.R_WB.y.z, std::sin(angle)) << angle;
   }
   EXPECT_EQ(shape_of(turned(M_PI / 2, 1) * turned(1e-9, 0)), RotationShape::general);
 }
@@ -69,7 +69,7 @@ TEST(Compile, Turns_by_right_angles_are_quarter_turns_however_they_are_written) 
       EXPECT_EQ(shape_of(r), RotationShape::quarter) << angle;
       const Eigen::Quaterniond h(r);
       EXPECT_EQ(shape_of(h.toRotationMatrix()), RotationShape::quarter) << angle;
-      const Vec3<double> p = place(r).p;  // one metre along the turned z
+      const Vec3<double> p = place(r).p_WB;  // one metre along the turned z
       EXPECT_NEAR(p.x, r(0, 2), 1e-15);
       EXPECT_NEAR(p.y, r(1, 2), 1e-15);
       EXPECT_NEAR(p.z, r(2, 2), 1e-15);

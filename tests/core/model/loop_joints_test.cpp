@@ -25,8 +25,7 @@ Mechanism with_loop_joints(const Linkage& linkage) {
 }
 
 std::string name_of(const Mechanism& m, const LoopJoint& joint) {
-  return joint.body >= 0 ? m.joint_names[static_cast<std::size_t>(joint.body)]
-                         : m.closure_names[static_cast<std::size_t>(joint.closure)];
+  return joint.body.exists() ? m.joint_names[joint.body] : m.closure_names[joint.closure];
 }
 
 // Names by group, sorted by the first.

@@ -23,13 +23,23 @@ struct SparseCase {
   MatrixXd h;
 };
 
+using Node = TypedIndex<struct NodeTag>;
+
 struct Tree {
-  int nv;
-  std::vector<int> v_parent;
+  IndexedVector<Node, Node> v_parent;
 };
 
 Tree tree(const SparseCase& c) {
-  return {c.n, c.parent};
+  Tree t;
+  for (const int parent : c.parent) t.v_parent.push_back(Node(parent));
+  return t;
+}
+
+IndexedMatrixView<Node, Node, double> view(RowMajor& h) {
+  return {h.data(), static_cast<int>(h.cols())};
+}
+IndexedPointer<Node, double> view(VectorXd& x) {
+  return x.data();
 }
 
 // Sum over nodes of w w^T with w on the path to the root: the sparsity of a mass matrix.
@@ -67,7 +77,7 @@ TEST(BranchSparse, The_factor_multiplies_back_to_the_matrix_without_fill_in) {
     RowMajor factor = c.h;
     factor.triangularView<Eigen::StrictlyUpper>().setConstant(1e99);  // never read
     VectorXd inverse_pivot(c.n);
-    factorize_branch_sparse(tree(c), factor.data(), inverse_pivot.data());
+    factorize_branch_sparse(tree(c), view(factor), view(inverse_pivot));
     MatrixXd l = MatrixXd::Identity(c.n, c.n);
     for (int k = 0; k < c.n; ++k) {
       for (int i = c.parent[static_cast<std::size_t>(k)]; i >= 0;
@@ -88,10 +98,10 @@ TEST(BranchSparse, Solutions_are_those_of_a_dense_Cholesky_factorisation) {
     VectorXd inverse_pivot(c.n);
     const VectorXd b = Random(seed + 1000).vector(c.n, 1.0);
     VectorXd x = b;
-    factorize_branch_sparse(tree(c), factor.data(), inverse_pivot.data());
-    solve_branch_transposed(tree(c), factor.data(), x.data());
+    factorize_branch_sparse(tree(c), view(factor), view(inverse_pivot));
+    solve_branch_transposed(tree(c), view(factor), view(x));
     x = x.cwiseProduct(inverse_pivot);
-    solve_branch(tree(c), factor.data(), x.data());
+    solve_branch(tree(c), view(factor), view(x));
     ASSERT_TRUE(near_relative(x, c.h.llt().solve(b), 1e-14 * condition(c.h))) << "seed " << seed;
   }
 }

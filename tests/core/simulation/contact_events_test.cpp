@@ -81,7 +81,7 @@ TEST(ContactEvents, The_first_of_several_crossings_is_found) {
 TEST(ContactEvents, The_earlier_of_two_contacts_is_named) {
   const auto e = find({toss(1.0, 0.1), toss(0.9, 0.1)}, 0.0, 1.0, {kOpen, kOpen});
   ASSERT_TRUE(e);
-  EXPECT_EQ(e->contact, 1);
+  EXPECT_EQ(e->contact, ContactIndex(1));
   EXPECT_NEAR(e->t, 0.9 - std::sqrt(0.2 / 9.81), 1e-15);
 }
 

@@ -78,7 +78,7 @@ TEST(ContactList, Of_a_linear_stop_is_half_a_swing) {
   stop.restitution = 1.0;
   const Model model = compile(flying_mass(stop));
   const double half = std::numbers::pi * std::sqrt(kMass / k);  // 14 ms
-  const ContactRecord expected{1,
+  const ContactRecord expected{ContactIndex(1),
                                0,
                                1.0 / kSpeed,
                                1.0 / kSpeed + half,
@@ -97,9 +97,9 @@ TEST(ContactList, Of_a_linear_stop_is_half_a_swing) {
   ASSERT_EQ(fine.records.size(), 1u);
   expect_near(coarse.records[0], expected, 2e-4);
   expect_near(fine.records[0], expected, 2e-5);
-  const std::vector<ContactPlace> places = contact_places(model.mechanism);
-  EXPECT_EQ(places[static_cast<std::size_t>(fine.records[0].contact)].owner, "joint.J");
-  EXPECT_EQ(places[static_cast<std::size_t>(fine.records[0].contact)].side, "high");
+  const auto places = contact_places(model.mechanism);
+  EXPECT_EQ(places[fine.records[0].contact].owner, "joint.J");
+  EXPECT_EQ(places[fine.records[0].contact].side, "high");
 }
 
 // The equation of motion of an impact with loss separates (core/laws/normal_contact.h): the speed

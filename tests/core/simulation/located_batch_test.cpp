@@ -310,8 +310,8 @@ TEST(LocatedBatch, Neither_order_nor_neighbours_change_a_bit) {
     std::ranges::reverse(back);
     for (std::size_t i = 1; i < odd.size(); i += 2) {
       const double bad = i % 4 == 1 ? 1e300 : std::numeric_limits<double>::quiet_NaN();
-      odd[i].model.parameters.bodies[1].mass = bad;
-      odd[i].model.start.v[0] = bad;
+      odd[i].model.parameters.bodies[BodyIndex(1)].mass = bad;
+      odd[i].model.start.v[VelocityIndex(0)] = bad;
     }
     run_cases(there, options, level);
     run_cases(back, options, level);
@@ -337,9 +337,9 @@ TEST(LocatedBatch, A_lane_that_fails_ends_as_alone_and_leaves_the_others) {
   for (const SimdLevel& level : step_loops()) {
     std::vector<Case> lanes = make_cases(linkage, level.lanes + 5, kInstants);
     for (auto& s : lanes[1].model.parameters.springs) s.stiffness = 1e13;
-    lanes[1].model.start.q[0] += 1e-3;
-    lanes[3].model.start.v[0] = 1e160;
-    lanes[4].model.parameters.bodies[2].mass = -1.0;
+    lanes[1].model.start.q[PositionIndex(0)] += 1e-3;
+    lanes[3].model.start.v[VelocityIndex(0)] = 1e160;
+    lanes[4].model.parameters.bodies[BodyIndex(2)].mass = -1.0;
     std::vector<Case> alone = lanes;
     run_cases(lanes, options, level);
     run_alone(alone, options, level);

@@ -86,7 +86,7 @@ TEST(LocatedContacts, Elastic_impacts_happen_at_the_times_of_the_closed_form) {
       const SimulationOutcome run_end = run(model, by(integrator, tolerance, steps_of(1e-2, end)));
       ASSERT_EQ(run_end.cause, Cause::ok) << run_end.message;
       EXPECT_EQ(run_end.contacts, exact.contacts);
-      EXPECT_NEAR(run_end.final_state.q[1], exact.y, 100 * tolerance);
+      EXPECT_NEAR(run_end.final_state.q[PositionIndex(1)], exact.y, 100 * tolerance);
     }
   }
 }
@@ -102,7 +102,7 @@ TEST(LocatedContacts, Every_impact_leaves_the_speed_of_its_law) {
       const SimulationOutcome end = run(model, by(integrator, 1e-9, steps_of(1e-2, 0.1)));
       ASSERT_GE(end.contacts, 5);
       const double speed = 0.5 * std::pow(ratio, static_cast<double>(end.contacts));
-      EXPECT_NEAR(std::fabs(end.final_state.v[1]) / speed, 1.0, 2e-5);
+      EXPECT_NEAR(std::fabs(end.final_state.v[VelocityIndex(1)]) / speed, 1.0, 2e-5);
       EXPECT_LT(end.energy_residual_max, 1e-6 * end.energy_scale);
     }
   }
@@ -118,7 +118,8 @@ TEST(LocatedContacts, A_twentieth_of_the_evaluations_of_constant_steps_is_more_a
       run(model, by(Integrator::adaptive, 1e-10, steps_of(1e-2, end)));
   const double exact = elastic_flight(speed, end).y;
   EXPECT_LT(20 * located.evaluations, fixed.evaluations);
-  EXPECT_LT(std::fabs(located.final_state.q[1] - exact), std::fabs(fixed.final_state.q[1] - exact));
+  EXPECT_LT(std::fabs(located.final_state.q[PositionIndex(1)] - exact),
+            std::fabs(fixed.final_state.q[PositionIndex(1)] - exact));
 }
 
 TEST(LocatedContacts, A_contact_shorter_than_any_free_step_is_not_missed) {
@@ -149,8 +150,8 @@ TEST(LocatedContacts, Bounces_end_at_rest_on_the_static_depth) {
   ASSERT_EQ(end.cause, Cause::ok) << end.message;
   EXPECT_GE(end.contacts, 3);
   EXPECT_LT(end.contacts, 100);
-  EXPECT_NEAR(-end.final_state.q[1] - kRadial, depth, 0.05 * depth);
-  EXPECT_LT(std::fabs(end.final_state.v[1]), 1e-3);
+  EXPECT_NEAR(-end.final_state.q[PositionIndex(1)] - kRadial, depth, 0.05 * depth);
+  EXPECT_LT(std::fabs(end.final_state.v[VelocityIndex(1)]), 1e-3);
   EXPECT_LT(end.energy_residual_max, 1e-6 * end.energy_scale);
 }
 
@@ -163,7 +164,7 @@ TEST(LocatedContacts, A_run_that_starts_in_contact_has_that_contact) {
   for (const Integrator integrator : kAdaptive) {
     const SimulationOutcome end = run(model, by(integrator, 1e-10, steps_of(1e-2, 0.05)));
     EXPECT_EQ(end.contacts, 1);
-    EXPECT_NEAR(end.final_state.q[1], -kRadial - depth, 1e-9);
+    EXPECT_NEAR(end.final_state.q[PositionIndex(1)], -kRadial - depth, 1e-9);
   }
 }
 
@@ -203,7 +204,9 @@ TEST(LocatedContacts, Both_ends_of_a_skewing_journal_are_followed_as_by_fine_con
   EXPECT_EQ(located.contacts, fixed.contacts);
   EXPECT_GE(located.contacts, 4);
   for (std::size_t i = 0; i < fixed.final_state.q.size(); ++i) {
-    EXPECT_NEAR(located.final_state.q[i], fixed.final_state.q[i], 1e-6) << i;
+    EXPECT_NEAR(located.final_state.q[PositionIndex(i)], fixed.final_state.q[PositionIndex(i)],
+                1e-6)
+        << i;
   }
   EXPECT_LT(20 * located.evaluations, fixed.evaluations);
 }

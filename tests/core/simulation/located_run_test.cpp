@@ -44,8 +44,10 @@ Linkage projected_rsrrp() {
 
 double distance(const State<double>& a, const State<double>& b) {
   double most = 0.0;
-  for (std::size_t i = 0; i < a.q.size(); ++i) most = std::max(most, std::fabs(a.q[i] - b.q[i]));
-  for (std::size_t i = 0; i < a.v.size(); ++i) most = std::max(most, std::fabs(a.v[i] - b.v[i]));
+  for (std::size_t i = 0; i < a.q.size(); ++i)
+    most = std::max(most, std::fabs(a.q[PositionIndex(i)] - b.q[PositionIndex(i)]));
+  for (std::size_t i = 0; i < a.v.size(); ++i)
+    most = std::max(most, std::fabs(a.v[VelocityIndex(i)] - b.v[VelocityIndex(i)]));
   return most;
 }
 
@@ -91,8 +93,8 @@ TEST(LocatedRun, The_pendulum_returns_after_its_published_period) {
   const Model model = compile(pendulum());
   for (const Integrator integrator : kAdaptive) {
     const SimulationOutcome end = run(model, by(integrator, 1e-11, steps_of(0.1, kPendulumPeriod)));
-    EXPECT_NEAR(end.final_state.q[0], 0.0, 1e-8);
-    EXPECT_NEAR(end.final_state.v[0], 0.0, 2e-8);
+    EXPECT_NEAR(end.final_state.q[PositionIndex(0)], 0.0, 1e-8);
+    EXPECT_NEAR(end.final_state.v[VelocityIndex(0)], 0.0, 2e-8);
   }
 }
 
@@ -159,8 +161,8 @@ TEST(LocatedRun, Quaternions_stay_of_unit_length_and_end_where_constant_steps_do
       ASSERT_EQ(end.cause, Cause::ok) << end.message;
       EXPECT_LT(distance(end.final_state, fixed.final_state), 1e-6) << seed;
       ASSERT_FALSE(model.mechanism.ball_q.empty());
-      for (const int i : model.mechanism.ball_q) {
-        const double* q = end.final_state.q.data() + i;
+      for (const PositionIndex i : model.mechanism.ball_q) {
+        const double* q = &end.final_state.q[i];
         EXPECT_NEAR(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3], 1.0, 1e-14);
       }
     }
@@ -222,7 +224,7 @@ TEST(LocatedRun, What_ends_it_is_told_with_the_state_reached) {
     options.drift_limit = 1e-13;
     EXPECT_EQ(run(model, options).cause, Cause::constraint_drift);
     Model lost = compile(pendulum());
-    lost.start.v[0] = std::nan("");
+    lost.start.v[VelocityIndex(0)] = std::nan("");
     EXPECT_EQ(run(lost, by(integrator, 1e-8, steps_of(1e-3, 1.0))).cause, Cause::diverged);
   }
 }

@@ -81,7 +81,8 @@ Course engine(const Push& push, SimulationOptions options) {
                         {"closure.B.normal_force.0", "closure.B.penetration.0", "joint.F.v.1"});
   EXPECT_EQ(s.outcome.cause, Cause::ok) << s.outcome.message;
   return {s.values.col(0).maxCoeff(), s.values.col(1).maxCoeff(),
-          s.outcome.final_state.q[1] - kRadial, s.outcome.final_state.v[1]};
+          s.outcome.final_state.q[PositionIndex(1)] - kRadial,
+          s.outcome.final_state.v[VelocityIndex(1)]};
 }
 
 SimulationOptions located(double end_time) {
@@ -139,7 +140,7 @@ TEST(PushedContact, In_a_free_impact_both_speeds_are_the_same) {
     const SimulationOutcome end = run(compile(linkage), steps_of(2e-7, 2e-3));
     ASSERT_EQ(end.cause, Cause::ok) << end.message;
     EXPECT_EQ(end.contacts, 1);
-    EXPECT_NEAR(end.final_state.v[1], -0.1 * ratio, 1e-6 * 0.1);
+    EXPECT_NEAR(end.final_state.v[VelocityIndex(1)], -0.1 * ratio, 1e-6 * 0.1);
   }
 }
 

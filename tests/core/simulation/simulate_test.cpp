@@ -49,7 +49,8 @@ TEST(Simulate, A_run_in_two_parts_is_the_run_in_one) {
   EXPECT_DOUBLE_EQ(model.start.t, 0.5);
   const SimulationOutcome rest = run(model, steps_of(1e-3, 0.5));
   for (std::size_t k = 0; k < 4; ++k) {
-    EXPECT_NEAR(rest.final_state.q[k], whole.final_state.q[k], 1e-12);  // times differ by rounding
+    EXPECT_NEAR(rest.final_state.q[PositionIndex(k)], whole.final_state.q[PositionIndex(k)],
+                1e-12);  // times differ by rounding
   }
 }
 
@@ -74,7 +75,7 @@ TEST(Simulate, A_step_far_too_large_ends_in_a_typed_cause_and_not_in_an_exceptio
 
 TEST(Simulate, An_undefined_start_has_diverged_at_once) {
   Model model = compile(pendulum());
-  model.start.v[0] = std::nan("");
+  model.start.v[VelocityIndex(0)] = std::nan("");
   const SimulationOutcome end = run(model, steps_of(1e-3, 1.0));
   EXPECT_EQ(end.cause, Cause::diverged);
   EXPECT_EQ(end.steps, 0);
@@ -197,7 +198,8 @@ TEST(Prepare, An_equilibrium_start_stays_where_it_is) {
   EXPECT_EQ(p.statics->stability, Stability::stable);
   const SimulationOutcome end = run(p.model, options);
   for (std::size_t k = 0; k < 4; ++k) {
-    EXPECT_NEAR(end.final_state.q[k], p.model.start.q[k], 1e-8);  // residual force over stiffness
+    EXPECT_NEAR(end.final_state.q[PositionIndex(k)], p.model.start.q[PositionIndex(k)],
+                1e-8);  // residual force over stiffness
   }
 }
 

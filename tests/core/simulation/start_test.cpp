@@ -50,7 +50,7 @@ TEST(Start, Only_the_stiff_directions_of_a_replacement_joint_are_shut) {
     for (const SdeAxes axes : {SdeAxes::ground, SdeAxes::first}) {
       const Preparation p = prepare(beside_its_spring(form, axes), steps_of(1e-3, 1.0));
       ASSERT_EQ(p.cause, Cause::ok) << p.message;
-      EXPECT_NEAR(p.model.start.q[0], 0.0, 1e-14);
+      EXPECT_NEAR(p.model.start.q[PositionIndex(0)], 0.0, 1e-14);
       EXPECT_EQ(p.assembly.rows, 1);
       EXPECT_EQ(p.assembly.mobility, 0);
     }
@@ -76,7 +76,7 @@ TEST(Start, A_line_of_centres_is_shut_in_every_direction) {
   linkage.joints[0].frame.position.setZero();
   const Preparation p = prepare(linkage, steps_of(1e-3, 1.0));
   ASSERT_EQ(p.cause, Cause::ok) << p.message;
-  EXPECT_NEAR(p.model.start.q[0], 0.0, 1e-14);
+  EXPECT_NEAR(p.model.start.q[PositionIndex(0)], 0.0, 1e-14);
 }
 
 TEST(Start, A_fully_stiff_element_begins_where_the_cut_joint_does) {
@@ -97,8 +97,10 @@ TEST(Start, A_spring_begins_deflected_and_moving_where_that_is_given) {
   ASSERT_EQ(p.cause, Cause::ok) << p.message;
   EXPECT_THAT(p.warnings, IsEmpty());
   const SimulationOutcome end = run(p.model, steps_of(1e-4, t));
-  EXPECT_NEAR(end.final_state.q[0], x0 * std::cos(w * t) + v0 / w * std::sin(w * t), 1e-9);
-  EXPECT_NEAR(end.final_state.v[0], v0 * std::cos(w * t) - x0 * w * std::sin(w * t), 1e-8);
+  EXPECT_NEAR(end.final_state.q[PositionIndex(0)], x0 * std::cos(w * t) + v0 / w * std::sin(w * t),
+              1e-9);
+  EXPECT_NEAR(end.final_state.v[VelocityIndex(0)], v0 * std::cos(w * t) - x0 * w * std::sin(w * t),
+              1e-8);
 }
 
 TEST(Start, A_velocity_that_a_shut_spring_takes_away_is_said) {
@@ -106,7 +108,7 @@ TEST(Start, A_velocity_that_a_shut_spring_takes_away_is_said) {
   linkage.closures[0].sde.start = SdeStart::closed;
   const Preparation p = prepare(linkage, steps_of(1e-4, 1.0));
   ASSERT_EQ(p.cause, Cause::ok) << p.message;
-  EXPECT_NEAR(p.model.start.v[0], 0.0, 1e-15);
+  EXPECT_NEAR(p.model.start.v[VelocityIndex(0)], 0.0, 1e-15);
   EXPECT_THAT(p.warnings, ElementsAre(::testing::AllOf(
                               HasSubstr("joint.rail: its initial velocity is"),
                               HasSubstr("instead of the given 1"), HasSubstr("sde.start"))));
@@ -120,7 +122,9 @@ TEST(Start, A_bushing_rests_at_torque_over_stiffness_and_sines_cannot_bear_it) {
   options.start = Start::equilibrium;
   const Preparation p = prepare(bushing_under({4, 0, 0}), options);
   ASSERT_EQ(p.cause, Cause::ok) << p.message;
-  EXPECT_NEAR(2.0 * std::atan2(p.model.start.q[1], p.model.start.q[0]), 0.8, 1e-10);
+  EXPECT_NEAR(
+      2.0 * std::atan2(p.model.start.q[PositionIndex(1)], p.model.start.q[PositionIndex(0)]), 0.8,
+      1e-10);
   EXPECT_EQ(p.statics->stability, Stability::stable);
   // k along the turn; across it the second derivative of k/2 |phi|^2 is k h cot h, h = phi / 2.
   EXPECT_NEAR(p.statics->smallest_stiffness, 5.0 * 0.4 / std::tan(0.4), 1e-6);
@@ -146,7 +150,7 @@ TEST(Start, A_held_joint_stays_in_equilibrium_and_its_effort_is_said) {
   options.start = Start::equilibrium;
   const Preparation p = prepare(linkage, options);
   ASSERT_EQ(p.cause, Cause::ok) << p.message;
-  EXPECT_EQ(p.model.start.q[0], 0.02);
+  EXPECT_EQ(p.model.start.q[PositionIndex(0)], 0.02);
   EXPECT_NEAR(p.statics->holding[0], 9.81 + 0.02 * 1000.0, 1e-10);
   EXPECT_THAT(p.warnings, Contains(HasSubstr("holds joint.rail with 29.81 N")));
 }
@@ -164,7 +168,7 @@ TEST(Start, Loads_of_the_equilibrium_are_those_of_the_time_asked_for) {
     options.statics_time = t;
     const Preparation p = prepare(linkage, options);
     ASSERT_EQ(p.cause, Cause::ok) << p.message;
-    EXPECT_NEAR(p.model.start.q[0], 30.0 * std::min(t / 2.0, 1.0) / 1000.0, 1e-12);
+    EXPECT_NEAR(p.model.start.q[PositionIndex(0)], 30.0 * std::min(t / 2.0, 1.0) / 1000.0, 1e-12);
     EXPECT_EQ(p.model.start.t, 0.0) << "a run begins at zero all the same";
     EXPECT_EQ(p.statics->time, t);
   }

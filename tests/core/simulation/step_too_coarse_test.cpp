@@ -80,7 +80,7 @@ TEST(StepTooCoarse, A_run_that_passes_its_limit_for_a_moment_and_balances_is_onl
   const SimulationOutcome end =
       run(compile(on_incline(kSteep)), steps_of(1.003 * kSlideLimit, 1.0, 0.1));
   EXPECT_EQ(end.cause, Cause::ok) << end.message;
-  EXPECT_NEAR(end.final_state.v[0], kSpeed, 5e-4);
+  EXPECT_NEAR(end.final_state.v[VelocityIndex(0)], kSpeed, 5e-4);
   EXPECT_NE(end.warning.find("past the stability limit"), std::string::npos) << end.warning;
 }
 

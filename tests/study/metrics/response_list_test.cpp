@@ -96,14 +96,14 @@ TEST(ResponseList, Is_read_back_as_it_was_written) {
 }
 
 TEST(SameChannel, Differs_with_every_member) {
-  const Channel channel{"point.tip.position.x", "m", Quantity::point_position, 1, 2, 3};
+  const Channel channel{"point.tip.position.x", "m", Quantity::point_position, 1, 2, BodyIndex(3)};
   const std::vector<std::function<void(Channel&)>> changes = {
       [](Channel& c) { c.name = "point.end.position.x"; },
       [](Channel& c) { c.unit = "m/s"; },
       [](Channel& c) { c.quantity = Quantity::point_velocity; },
       [](Channel& c) { c.index = 0; },
       [](Channel& c) { c.component = 0; },
-      [](Channel& c) { c.body = 0; }};
+      [](Channel& c) { c.body = kGroundBody; }};
   EXPECT_TRUE(same_channel(channel, channel));
   for (std::size_t i = 0; i < changes.size(); ++i) {
     Channel other = channel;
