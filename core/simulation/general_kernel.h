@@ -14,11 +14,9 @@ void run_general(const Mechanism& m, const KernelRun& setting, const LaneCase* c
   Run<Pack<Lanes, Isa>>(m, setting, cases, count).run();
 }
 
-template <class Isa>
-constexpr std::array<Kernel, 2> general_kernels(InstructionSet isa) {
-  return {{{isa, 1, run_general<Isa, 1>, make_general_trials<Pack<1, Isa>>},
-           {isa, Isa::lanes, run_general<Isa, Isa::lanes>,
-            make_general_trials<Pack<Isa::lanes, Isa>>}}};
+template <class Isa, int... Lanes>
+constexpr std::array<Kernel, sizeof...(Lanes)> general_kernels(InstructionSet isa) {
+  return {{{isa, Lanes, run_general<Isa, Lanes>, make_general_trials<Pack<Lanes, Isa>>}...}};
 }
 
 }  // namespace linkstudy

@@ -19,6 +19,8 @@ std::span<const Kernel> kernels_of(InstructionSet isa) {
 TrialPack::~TrialPack() = default;
 
 const Kernel& find_kernel(InstructionSet isa, int lanes) {
+  // One lane is the same code, and has the same bits.
+  if (isa == InstructionSet::avx512 && lanes == 1) isa = InstructionSet::avx2;
   for (const Kernel& k : kernels_of(isa))
     if (k.isa == isa && k.lanes == lanes) return k;
   throw std::logic_error("no step loop for this instruction set and number of lanes");

@@ -8,7 +8,7 @@ namespace linkstudy {
 
 std::span<const Kernel> avx2_kernels() {
 #if defined(__AVX2__)
-  static constexpr auto kernels = general_kernels<Avx2>(InstructionSet::avx2);
+  static constexpr auto kernels = general_kernels<Avx2, 1, Avx2::lanes>(InstructionSet::avx2);
   return kernels;
 #else
   return {};

@@ -8,7 +8,7 @@ namespace linkstudy {
 
 std::span<const Kernel> avx512_kernels() {
 #if defined(__AVX512F__)
-  static constexpr auto kernels = general_kernels<Avx512>(InstructionSet::avx512);
+  static constexpr auto kernels = general_kernels<Avx512, Avx512::lanes>(InstructionSet::avx512);
   return kernels;
 #else
   return {};

@@ -4,7 +4,8 @@
 namespace linkstudy {
 
 std::span<const Kernel> baseline_kernels() {
-  static constexpr auto kernels = general_kernels<Baseline>(InstructionSet::baseline);
+  static constexpr auto kernels =
+      general_kernels<Baseline, 1, Baseline::lanes>(InstructionSet::baseline);
   return kernels;
 }
 
