@@ -12,8 +12,6 @@ namespace {
 
 constexpr long kFirstQuestion = 2048;  // evaluations of the equations of motion
 constexpr long kEvaluationsPerTrial = 6;
-constexpr long kTrial = 64;        // runs before code may be left
-constexpr long kMostFailures = 4;  // one in so many is too much
 
 int parameter_count(const Parameters<double>& p) {
   std::size_t count = 0;
@@ -73,17 +71,15 @@ void TrialFrame::leave() {
   may_be_written_ = !m_.cut_rows.empty() && !written_->rows_may_depend;
   rows_may_depend_ = true;
   written_ = nullptr;
-  tried_ = failed_ = 0;
+  failures_ = {};
   next_question_ = 0;
 }
 
 bool TrialFrame::run(codegen::FrameCode& code, int fine, unsigned counting) {
   code.run(numbers_);
-  ++tried_;
-  if (is_fine(fine, counting)) return true;
-  ++failed_;
-  if (tried_ >= kTrial && kMostFailures * failed_ > tried_) leave();
-  return false;
+  const bool all_fine = is_fine(fine, counting);
+  if (failures_.note(all_fine)) leave();
+  return all_fine;
 }
 
 void TrialFrame::count_evaluations(long count) {

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "core/simulation/code_failures.h"
 #include "core/simulation/kernel.h"
 #include "core/simulation/observed_channels.h"
 #include "core/simulation/written_steps.h"
@@ -61,7 +62,7 @@ class TrialFrame {
   std::unique_ptr<TrialPack> general_;
   std::shared_ptr<const WrittenStep> written_;
   long untold_ = 0, next_question_ = 0;  // evaluations since the last question for code
-  long tried_ = 0, failed_ = 0;          // runs of code
+  CodeFailures failures_;
   bool may_be_written_, rows_may_depend_ = false;
 };
 

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "core/base/real.h"
+#include "core/simulation/code_failures.h"
 #include "core/simulation/kernel.h"
 
 namespace linkstudy {
@@ -46,11 +47,9 @@ class WrittenLanes {
   // True if all is well for the lanes asked for, one bit each.
   bool run(unsigned active) {
     code_->code->run(code_->frame);
-    ++tried_;
-    if ((fine() & active) == active) return true;
-    ++failed_;
-    if (tried_ >= kTrial && kMostFailures * failed_ > tried_) leave();
-    return false;
+    const bool is_fine = (fine() & active) == active;
+    if (failures_.note(is_fine)) leave();
+    return is_fine;
   }
 
   template <class W>
@@ -77,7 +76,7 @@ class WrittenLanes {
  private:
   void take(const StepCode* code) {
     code_ = code;
-    tried_ = failed_ = 0;
+    failures_ = {};
     if (code_ == nullptr) return;
     put(StepSlots::h, Real(h_));
     put(StepSlots::drift_limit, Real(drift_limit_));
@@ -88,9 +87,6 @@ class WrittenLanes {
   }
 
   void leave() { take(code_->instead != nullptr ? code_->instead(code_->context) : nullptr); }
-
-  static constexpr long kTrial = 64;        // steps before code may be left
-  static constexpr long kMostFailures = 4;  // one in so many is too much
 
   double* place(int slot) const { return code_->frame + slot * width; }
 
@@ -125,7 +121,7 @@ class WrittenLanes {
   const double h_, drift_limit_;
   const Parameters<Real>& p_;
   const StepCode* code_ = nullptr;
-  long tried_ = 0, failed_ = 0;
+  CodeFailures failures_;
 };
 
 }  // namespace linkstudy

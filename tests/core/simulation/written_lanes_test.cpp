@@ -98,6 +98,16 @@ TEST(WrittenLanes, Leave_code_that_fails_more_often_than_one_time_in_four) {
   EXPECT_FALSE(often.is_there());
 }
 
+TEST(WrittenLanes, Leave_code_that_served_long_once_it_fails_in_a_row) {
+  Frames<double> frames;
+  for (int i = 0; i < 10000 + 64; ++i) {
+    EXPECT_TRUE(frames.is_there()) << i;
+    double y = i < 10000 ? 0.0 : 200.0;
+    frames.step_all(0.0, y, 1u);
+  }
+  EXPECT_FALSE(frames.is_there());
+}
+
 TEST(WrittenLanes, Leave_it_for_other_code_with_all_that_stays_the_same) {
   Frames<double> other, first(&other);
   for (int i = 0; i < 63; ++i) {
