@@ -231,7 +231,7 @@ class Soak:
             pass
 
     def watch(self, process):
-        """Samples memory, freezes ranks now and then, and the last one for good near the end."""
+        """Samples memory, freezes ranks now and then, and the last for good while it has work."""
         journal = self.folder / "out" / "journal.bin"
         is_lost, next_freeze = False, time.monotonic() + 1.0
         while process.poll() is None:
@@ -242,7 +242,7 @@ class Soak:
             for mark in (0.1, 0.5, 0.99):
                 if part >= mark and mark not in self.resident:
                     self.resident[mark] = self.memory()
-            if part > 0.9 and not is_lost:
+            if part > 0.6 and not is_lost:
                 is_lost = True
                 os.kill(self.pid(self.ranks - 1), signal.SIGSTOP)
             elif not is_lost and time.monotonic() > next_freeze:
@@ -269,7 +269,7 @@ class Soak:
         log = (self.folder / "log").read_text()
         own = (self.folder / "out" / "linkstudy.log").read_text()
         # On its way out of MPI_Abort, all being done, mpirun of Open MPI 4.1.4 crashes at times or
-        # tells of the ranks that it has killed. A rank that froze with nothing to do is found
+        # tells of the ranks that it has killed. A rank that froze with nothing left to do is found
         # lost only when the others leave, after the end.
         is_done = "exit code 0" in own and code in (0, 137, 139, -signal.SIGSEGV)
         if not is_done or "is lost: no sign of life" not in log:
