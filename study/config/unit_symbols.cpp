@@ -80,7 +80,7 @@ struct UnitWord {
   std::string_view symbol;
 };
 
-constexpr UnitWord kWords[] = {
+constexpr UnitWord kUnitWords[] = {
     {"meter", "m"},         {"metre", "m"},         {"micrometer", "um"},  {"micron", "um"},
     {"micrometre", "um"},   {"millimeter", "mm"},   {"millimetre", "mm"},  {"centimeter", "cm"},
     {"centimetre", "cm"},   {"kilometer", "km"},    {"kilometre", "km"},   {"inch", "in"},
@@ -124,13 +124,14 @@ std::string symbol_of_word(std::string_view name) {
   std::string word = lower(name);
   if (word.size() < 3) return {};
   std::vector<std::string> words;
-  for (const UnitWord& known : kWords) {
+  for (const UnitWord& known : kUnitWords) {
     words.emplace_back(known.word);
     words.push_back(std::string(known.word) + "s");
   }
   const std::string near = nearest_name(word, words);
   const auto at = std::ranges::find(words, near);
-  return at == words.end() ? std::string() : std::string(kWords[(at - words.begin()) / 2].symbol);
+  return at == words.end() ? std::string()
+                           : std::string(kUnitWords[(at - words.begin()) / 2].symbol);
 }
 
 }  // namespace
