@@ -39,8 +39,9 @@ double part_kept(double a, std::uint64_t b) {
   if (b == Graph::kTrue) return 1.0;
   if (b == 0 || b == Graph::kSign) return 0.0;
   if (b == ~Graph::kSign) return a > 0.0 ? 1.0 : a < 0.0 ? -1.0 : 0.0;
-  // The digits, to which an exponent is given later: a scaled by a power of two.
-  if (b == kDigits) return std::ldexp(1.0, -std::ilogb(a));
+  // The digits, to which an exponent is given later: a scaled by a power of two. Zero and what is
+  // no number have none; a branch that asks for them is not the one taken.
+  if (b == kDigits) return a != 0.0 && std::isfinite(a) ? std::ldexp(1.0, -std::ilogb(a)) : 0.0;
   return kUnknown;
 }
 
