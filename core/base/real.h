@@ -74,6 +74,8 @@ inline double binary_fraction(double a) {
 inline unsigned lane_bits(bool mask) {
   return mask ? 1u : 0u;
 }
+template <class Real>
+inline constexpr unsigned kAllLanes = (1u << RealTraits<Real>::lanes) - 1u;
 inline double lane(double a, int) {
   return a;
 }

@@ -31,10 +31,6 @@ struct DriftTolerance {
 // this part of the lever count as that.
 inline constexpr double kLeastLever = 1e-3;
 
-// One bit for every lane.
-template <class Real>
-inline constexpr unsigned kAllLanes = (1u << RealTraits<Real>::lanes) - 1u;
-
 // f(k) of the velocities that move the two ends of a closure against each other: on the path of one
 // end to ground and not on that of the other.
 template <class F>

@@ -365,6 +365,11 @@ ClosureEquations compute_closure_equations(const Mechanism& m, const Parameters<
   return e;
 }
 
+int closure_rank(const Mechanism& m, const Parameters<double>& p, const State<double>& s) {
+  if (m.cut_rows.empty()) return 0;
+  return numerical_rank(compute_closure_equations(m, p, s).jacobian, kRankTolerance).rank;
+}
+
 double close_from(const Model& closed, const ClosureScale& scale, State<double>& s) {
   const Mechanism& m = closed.mechanism;
   const auto rows = [&](const State<double>& x) { return scaled_equations(closed, scale, x); };

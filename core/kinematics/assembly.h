@@ -76,6 +76,9 @@ struct ClosureEquations {
 ClosureEquations compute_closure_equations(const Mechanism& m, const Parameters<double>& p,
                                            const State<double>& s);
 
+// Cut rows that are independent at q, by kRankTolerance.
+int closure_rank(const Mechanism& m, const Parameters<double>& p, const State<double>& s);
+
 // q moved by a displacement in velocity coordinates.
 State<double> displaced(const Mechanism& m, const State<double>& s, const Eigen::VectorXd& dq);
 

@@ -1,8 +1,5 @@
 #include "core/simulation/pack_code.h"
 
-#include <algorithm>
-#include <bit>
-
 namespace linkstudy {
 
 PackCode::PackCode(const Mechanism& m, std::span<const LaneCase> cases, long steps,
@@ -30,11 +27,8 @@ void PackCode::place(bool rows_may_depend, Placed& at) {
   at.written = written_step(m_, cases_, observed_.all(), steps_, level_, slot_numbers(lanes_),
                             rows_may_depend);
   if (!at.written) return;
-  const int numbers = at.written->slot_numbers;
-  at.frame = codegen::FrameNumbers(at.written->frame_slots * numbers);
-  for (const auto& [slot, bits] : at.written->constants) {
-    std::fill_n(at.frame.data() + slot * numbers, numbers, std::bit_cast<double>(bits));
-  }
+  at.frame = codegen::FrameNumbers(at.written->frame_slots * at.written->slot_numbers);
+  at.written->put_constants(at.frame.data());
   at.code = {at.written->code.get(),    at.written->slots,
              at.frame.data(),           observed_.first().data(),
              observed_.beyond().data(), static_cast<int>(observed_.beyond().size())};

@@ -16,7 +16,6 @@
 #include "core/kinematics/three_turns.h"
 #include "core/model/loop_joints.h"
 #include "core/model/undriven.h"
-#include "core/numerics/rank.h"
 #include "core/simulation/motion_start.h"
 #include "core/simulation/simulate.h"
 #include "core/spatial/rotation_vector.h"
@@ -94,9 +93,7 @@ void warn_of_redundancy(const Linkage& linkage, RedundantReactions way,
   const int held = p.model.mechanism.cut_row_count();
   int rows = held;
   for (const unsigned directions : idle) rows += std::popcount(directions);
-  const ClosureEquations e =
-      compute_closure_equations(p.model.mechanism, p.model.parameters, p.model.start);
-  const int rank = held > 0 ? numerical_rank(e.jacobian, kRankTolerance).rank : 0;
+  const int rank = closure_rank(p.model.mechanism, p.model.parameters, p.model.start);
   if (rank == rows) return;
   describe_redundancy(linkage, way, rows - rank, rows, p);
   const auto& closures = p.model.mechanism.closures;

@@ -94,9 +94,7 @@ void TrialFrame::use(std::shared_ptr<const WrittenStep> written) {
   if (!written) return;
   codegen::FrameNumbers wider(written->frame_slots * width_);
   std::copy_n(numbers_, slots_.count * width_, wider.data());
-  for (const auto& [slot, bits] : written->constants) {
-    std::fill_n(wider.data() + slot * width_, width_, std::bit_cast<double>(bits));
-  }
+  written->put_constants(wider.data());
   frame_ = std::move(wider);
   numbers_ = frame_.data();
   written_ = std::move(written);

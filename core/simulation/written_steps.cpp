@@ -1,6 +1,7 @@
 #include "core/simulation/written_steps.h"
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <mutex>
 #include <optional>
@@ -8,7 +9,6 @@
 
 #include "core/codegen/traced.h"
 #include "core/kinematics/assembly.h"
-#include "core/numerics/rank.h"
 #include "core/simulation/trial_trace.h"
 
 namespace linkstudy {
@@ -43,11 +43,9 @@ std::vector<Known> known_in_all(std::span<const LaneCase> cases) {
 
 // Of the first case of a pack: the others depend likewise, or the general loop serves them.
 bool rows_depend_at_start(const Mechanism& m, const LaneCase& c) {
-  if (m.cut_rows.empty()) return false;
   State<double> start = make_state<double>(m);
   std::copy_n(c.y, m.nq, start.q.begin());
-  const ClosureEquations e = compute_closure_equations(m, *c.parameters, start);
-  return numerical_rank(e.jacobian, kRankTolerance).rank < m.cut_row_count();
+  return closure_rank(m, *c.parameters, start) < m.cut_row_count();
 }
 
 // But for their names.
@@ -217,6 +215,12 @@ bool may_execute() {
 }
 
 }  // namespace
+
+void WrittenStep::put_constants(double* frame) const {
+  for (const auto& [slot, bits] : constants) {
+    std::fill_n(frame + slot * slot_numbers, slot_numbers, std::bit_cast<double>(bits));
+  }
+}
 
 std::string why_not_written(const SimdLevel& level) {
   if (level.kernels == Kernels::general) return "LINKSTUDY_KERNELS=general";

@@ -33,6 +33,9 @@ struct WrittenStep {
   std::vector<std::unique_ptr<codegen::WrittenCode>> pages;
   std::unique_ptr<codegen::FrameCode> code;
   std::unique_ptr<codegen::FrameCode> inside;  // of trials: instants inside steps
+
+  // Writes the constants into a frame for this code.
+  void put_constants(double* frame) const;
 };
 
 // What has been written in this process.

@@ -65,9 +65,7 @@ class Cases {
   std::vector<Frame> frames_of_a_run() {
     const WrittenStep& w = *written_;
     codegen::FrameNumbers frame(w.frame_slots * kNarrow);
-    for (const auto& c : w.constants) {
-      std::fill_n(frame.data() + c.slot * kNarrow, kNarrow, std::bit_cast<double>(c.bits));
-    }
+    w.put_constants(frame.data());
     seen = {w.pages.front()->function(), static_cast<std::size_t>(w.frame_slots * kNarrow), 0, {}};
     codegen::FrameCode code({kNarrow, w.frame_slots, w.slots.end, w.slots.fine}, see_and_step);
     const StepCode step{&code, w.slots, frame.data(), nullptr, nullptr, 0};
