@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <optional>
 #include <regex>
 #include <sstream>
 
+#include "tests/cli/launcher_watch.h"
 #include "tests/support/rsrrp_text.h"
 
 namespace linkstudy::testing {
@@ -45,6 +47,8 @@ Program::~Program() {
 Ended Program::run(const std::string& arguments, const std::string& before) const {
   const std::string command = "cd " + directory_.string() + " && " + before + " " + kProgram + " " +
                               arguments + " >.streams/out 2>.streams/err </dev/null";
+  std::optional<LauncherWatch> watch;
+  if (before.find("mpirun") != std::string::npos) watch.emplace(directory_);
   Ended ended;
   ended.code = code_of(std::system(command.c_str()));
   ended.out = read_text(directory_ / ".streams/out");
