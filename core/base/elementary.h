@@ -65,7 +65,8 @@ inline Real cosine_polynomial(Real r, Real tail, Real z) {
 template <class Real>
 inline SinCos<Real> sincos(Real x) {
   const Real round(detail::kRound);
-  const Real n = madd(x, Real(6.36619772367581382433e-01), round) - round;
+  const Real sum = madd(x, Real(6.36619772367581382433e-01), round);
+  const Real n = sum - round;
   // r + tail = x - n pi/2 to about 70 bits
   const Real head = nmadd(n, Real(detail::kPi2a), x);
   const Real middle = n * Real(detail::kPi2b);
@@ -76,16 +77,10 @@ inline SinCos<Real> sincos(Real x) {
   const Real z = r * r;
   const Real s = detail::sine_polynomial(r, tail, z);
   const Real c = detail::cosine_polynomial(r, tail, z);
-  // Quadrant n mod 4 in -2..2 without integers: sign flips and the swap of sine and cosine.
-  const Real turns = madd(n, Real(0.25), round) - round;
-  const Real quarter = madd(turns, Real(-4.0), n);
-  const auto odd = abs(quarter) == Real(1.0);
-  const auto half = abs(quarter) == Real(2.0);
-  const Real sin0 = select(odd, c, s);
-  const Real cos0 = select(odd, s, c);
-  const auto flip_sin = half || (quarter == Real(-1.0));
-  const auto flip_cos = half || (quarter == Real(1.0));
-  return {select(flip_sin, -sin0, sin0), select(flip_cos, -cos0, cos0)};
+  // The quadrant n mod 4: the sine is negative in 2 and 3, the cosine in 1 and 2.
+  const Real odd = sign_from_bit<0>(sum), upper = sign_from_bit<1>(sum);
+  const auto swaps = has_sign(odd);
+  return {turned(select(swaps, c, s), upper), turned(turned(select(swaps, s, c), upper), odd)};
 }
 
 namespace detail {

@@ -161,6 +161,37 @@ inline Pack<N, Isa> abs(Pack<N, Isa> a) {
   return P(typename P::Vector(Bits(a.v) & (Bits{} + INT64_MAX)));
 }
 
+// As in real.h.
+template <int k, int N, class Isa>
+inline Pack<N, Isa> sign_from_bit(Pack<N, Isa> sum) {
+  using P = Pack<N, Isa>;
+  if constexpr (N == 1) {
+    return P(sign_from_bit<k>(sum.v));
+  } else {
+    using Bits = typename detail::PackStorage<N>::Unsigned;
+    return P(typename P::Vector(Bits(sum.v) << (63 - k) & (Bits{} + (std::uint64_t{1} << 63))));
+  }
+}
+template <int N, class Isa>
+inline Pack<N, Isa> turned(Pack<N, Isa> a, Pack<N, Isa> sign) {
+  using P = Pack<N, Isa>;
+  if constexpr (N == 1) {
+    return P(turned(a.v, sign.v));
+  } else {
+    using Bits = typename PackMask<N, Isa>::Bits;
+    return P(typename P::Vector(Bits(a.v) ^ Bits(sign.v)));
+  }
+}
+template <int N, class Isa>
+inline PackMask<N, Isa> has_sign(Pack<N, Isa> a) {
+  if constexpr (N == 1) {
+    return {has_sign(a.v)};
+  } else {
+    using Bits = typename PackMask<N, Isa>::Bits;
+    return {Bits(a.v) < 0};
+  }
+}
+
 // Adding 1.5 2^52 leaves n in the low bits of the significand.
 template <int N, class Isa>
 inline Pack<N, Isa> power_of_two(Pack<N, Isa> n) {

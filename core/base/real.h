@@ -55,6 +55,21 @@ inline bool is_finite(double a) {
   return std::fabs(a) <= 1.7976931348623157e308;
 }
 
+// Of a whole number n below 2^51, held as the sum n + 1.5 2^52:
+// a zero whose sign is bit k of n in two's complement, 0 <= k <= 1.
+template <int k>
+inline double sign_from_bit(double sum) {
+  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(sum) << (63 - k) & (1ull << 63));
+}
+// a with its sign turned where the zero `sign` has one.
+inline double turned(double a, double sign) {
+  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(a) ^
+                               std::bit_cast<std::uint64_t>(sign));
+}
+inline bool has_sign(double a) {
+  return std::bit_cast<std::int64_t>(a) < 0;
+}
+
 // 2^n for a whole number n from -1022 to 1023.
 inline double power_of_two(double n) {
   return std::bit_cast<double>((static_cast<std::int64_t>(n) + 1023) << 52);

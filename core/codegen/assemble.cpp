@@ -12,13 +12,18 @@
 #include <xbyak/xbyak.h>
 #pragma GCC diagnostic pop
 
+#include <algorithm>
+#include <array>
 #include <type_traits>
 
 namespace linkstudy::codegen {
 namespace {
 
 constexpr std::size_t kLongest = 24;  // bytes an instruction of a program: at most two of 12
+constexpr std::size_t kFrame = 12;    // instructions about a program
 constexpr std::uint8_t kLess = 1, kLessEqual = 2, kEqual = 0;  // predicates, ordered
+
+constexpr std::uint8_t kUpperHalves = 0xf5;  // of each 64 bits, in vpshufd
 
 // Truth tables of vpternlogq x, y, z: bit 4 x + 2 y + z is what the three bits give.
 constexpr std::uint8_t kXThenZElseY = 0xac, kYThenXElseZ = 0xe2, kYThenZElseX = 0xb8;
@@ -28,19 +33,42 @@ template <class Vector>
 class Assembler : public Xbyak::CodeGenerator {
  public:
   static constexpr bool is_wide = std::is_same_v<Vector, Xbyak::Zmm>;
+  static constexpr InstructionSet kSet = is_wide ? InstructionSet::avx512 : InstructionSet::avx2;
 
   Assembler(int slot_numbers, std::size_t size, std::uint8_t* memory)
-      : CodeGenerator(size, memory), slot_bytes_(8 * slot_numbers) {}
+      : CodeGenerator(size, memory),
+        slot_bytes_(8 * slot_numbers),
+        parts_(vectors_at_once(kSet, slot_numbers)) {}
 
   void write(const Program& program) {
-    for (const Instruction& i : program.instructions) write(i);
+    place_bases(program.slots);
+    for (const Instruction& i : program.instructions) {
+      for (part_ = 0; part_ < parts_; ++part_) write(i);
+    }
     vzeroupper();
     ret();
   }
 
  private:
-  static Vector reg(int i) { return Vector(i); }
-  Xbyak::Address memory(int slot) const { return ptr[rdi + slot * slot_bytes_]; }
+  Vector reg(int i) const { return Vector(part_ * registers_ + i); }
+
+  // A slot is reached from the nearest of several places in the frame: AVX-512 counts distances in
+  // vectors, 128 of which take one byte of the instruction in place of four. Long code runs as fast
+  // as its bytes are fetched.
+  void place_bases(int slots) {
+    if (!is_wide || slots <= reach_ / 2) return;
+    middle_ = reach_ / 2;
+    const auto needed = static_cast<std::size_t>((slots + reach_ - 1) / reach_);
+    bases_ = std::min(needed, kBases.size());
+    for (std::size_t i = bases_; i-- > 0;) lea(kBases[i], ptr[rdi + place_of(i)]);
+  }
+  int place_of(std::size_t base) const {
+    return (static_cast<int>(base) * reach_ + middle_) * slot_bytes_;
+  }
+  Xbyak::Address memory(int slot) const {
+    const std::size_t base = std::min(static_cast<std::size_t>(slot / reach_), bases_ - 1);
+    return ptr[kBases[base] + (slot * slot_bytes_ + part_ * kVectorBytes - place_of(base))];
+  }
 
   // f of the operand, a register or a place in memory.
   template <class F>
@@ -66,14 +94,12 @@ class Assembler : public Xbyak::CodeGenerator {
   }
 
   void write_operation(const Instruction& i) {
-    const Vector to = reg(i.to), a = i.first.reg >= 0 ? reg(i.first.reg) : reg(0);
+    const Vector to = reg(i.to), a = reg(std::max(i.first.reg, 0));
     switch (i.op) {
       case Op::square_root:
         return with(i.first, [&](const auto& x) { vsqrtpd(to, x); });
-      case Op::shift_left:
-        return vpsllq(to, a, 52);
-      case Op::shift_right:
-        return vpsrlq(to, a, 52);
+      case Op::sign_mask:
+        return spread_sign(to, a);
       case Op::select:
         return with(i.second, [&](const auto& x) { choose(to, a, x, reg(i.third.reg)); });
       default:
@@ -95,11 +121,22 @@ class Assembler : public Xbyak::CodeGenerator {
     }
   }
 
+  // The sign to all bits; AVX2 shifts no 64 bits so, but halves of them.
+  void spread_sign(const Vector& to, const Vector& a) {
+    if constexpr (is_wide) {
+      vpsraq(to, a, 63);
+    } else {
+      vpsrad(to, a, 31);
+      vpshufd(to, to, kUpperHalves);
+    }
+  }
+
   // To all bits or none.
   void compare(std::uint8_t predicate, const Vector& to, const Vector& a, const Xbyak::Operand& b) {
     if constexpr (is_wide) {
-      vcmppd(k1, a, b, predicate);
-      vpmovm2q(to, k1);
+      const Xbyak::Opmask bits(1 + part_);
+      vcmppd(bits, a, b, predicate);
+      vpmovm2q(to, bits);
     } else {
       vcmppd(to, a, b, predicate);
     }
@@ -125,6 +162,10 @@ class Assembler : public Xbyak::CodeGenerator {
         return vorpd(to, a, b);
       case Op::bit_xor:
         return vxorpd(to, a, b);
+      case Op::shift_left:
+        return vpsllvq(to, a, b);
+      case Op::shift_right:
+        return vpsrlvq(to, a, b);
       case Op::less:
         return compare(kLess, to, a, b);
       case Op::less_equal:
@@ -167,12 +208,22 @@ class Assembler : public Xbyak::CodeGenerator {
     vfnmsub231pd(x, y, z);
   }
 
-  const int slot_bytes_;
+  static constexpr int kVectorBytes = 8 * native_lanes(kSet);
+  const std::array<Xbyak::Reg64, 9> kBases{rdi, rsi, rdx, rcx, r8, r9, r10, r11, rax};
+
+  const int slot_bytes_, parts_;
+  const int registers_ = vector_registers(kSet) / parts_;
+  const int reach_ = 256 / parts_;  // slots about a base
+  int part_ = 0;                    // of a slot
+  std::size_t bases_ = 1;
+  int middle_ = 0;  // slot that the first base is at
 };
 
 template <class Vector>
 std::vector<std::uint8_t> assemble_with(const Program& program, int slot_numbers) {
-  std::vector<std::uint8_t> code((program.instructions.size() + 2) * kLongest);
+  const auto vectors =
+      static_cast<std::size_t>(vectors_at_once(Assembler<Vector>::kSet, slot_numbers));
+  std::vector<std::uint8_t> code((vectors * program.instructions.size() + kFrame) * kLongest);
   Assembler<Vector> assembler(slot_numbers, code.size(), code.data());
   assembler.write(program);
   code.resize(assembler.getSize());

@@ -62,9 +62,11 @@ double apply(Op op, double a, double b, double c) {
     case Op::bit_xor:
       return on_bits(a, b, [](auto x, auto y) { return x ^ y; });
     case Op::shift_left:
-      return on_bits(a, a, [](auto x, auto) { return x << 52; });
+      return on_bits(a, b, [](auto x, auto y) { return y < 64 ? x << y : 0; });
     case Op::shift_right:
-      return on_bits(a, a, [](auto x, auto) { return x >> 52; });
+      return on_bits(a, b, [](auto x, auto y) { return y < 64 ? x >> y : 0; });
+    case Op::sign_mask:
+      return mask_of(std::signbit(a));
     case Op::less:
       return mask_of(a < b);
     case Op::less_equal:

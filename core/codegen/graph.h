@@ -33,8 +33,9 @@ enum class Op : std::uint8_t {
   bit_and,
   bit_or,
   bit_xor,
-  shift_left,   // bits by 52: a whole number of 11 bits becomes an exponent
-  shift_right,  // bits by 52
+  shift_left,  // bits of a by the whole number that the bits of b are; none is left from 64 on
+  shift_right,
+  sign_mask,  // true where a has a sign
   less,
   less_equal,
   equal,
@@ -53,8 +54,7 @@ constexpr int operand_count(Op op) {
       return 0;
     case Op::negate:
     case Op::square_root:
-    case Op::shift_left:
-    case Op::shift_right:
+    case Op::sign_mask:
       return 1;
     case Op::madd:
     case Op::msub:

@@ -31,7 +31,7 @@ bool is_sum(Op op) {
 // Bits, or whole numbers.
 bool is_stepwise(Op op) {
   return op == Op::less || op == Op::less_equal || op == Op::equal || op == Op::shift_left ||
-         op == Op::shift_right;
+         op == Op::shift_right || op == Op::sign_mask;
 }
 
 // What is left of a by bit_and with b.

@@ -143,12 +143,24 @@ inline Traced abs(Traced a) {
 inline TracedMask is_finite(Traced a) {
   return abs(a) <= Traced(1.7976931348623157e308);
 }
+template <int k>
+inline Traced sign_from_bit(Traced sum) {
+  const Traced bit = codegen::with_bits(codegen::Op::shift_left, sum, 63 - k);
+  return k == 0 ? bit : codegen::with_bits(codegen::Op::bit_and, bit, codegen::Graph::kSign);
+}
+inline Traced turned(Traced a, Traced sign) {
+  return Traced::of(codegen::Op::bit_xor, a, sign);
+}
+inline TracedMask has_sign(Traced a) {
+  return {codegen::traced_graph->make(codegen::Op::sign_mask, a.value)};
+}
 inline Traced power_of_two(Traced n) {
-  return Traced::of(codegen::Op::shift_left, n + Traced(6755399441055744.0 + 1023.0));
+  return codegen::with_bits(codegen::Op::shift_left, n + Traced(6755399441055744.0 + 1023.0), 52);
 }
 inline Traced binary_exponent(Traced a) {
-  const Traced number = codegen::with_bits(
-      codegen::Op::bit_or, Traced::of(codegen::Op::shift_right, a), 0x4330000000000000u);
+  const Traced number =
+      codegen::with_bits(codegen::Op::bit_or, codegen::with_bits(codegen::Op::shift_right, a, 52),
+                         0x4330000000000000u);
   return number - Traced(4503599627370496.0 + 1023.0);
 }
 inline Traced binary_fraction(Traced a) {

@@ -1,6 +1,7 @@
 // The step loop and adaptive trials for every mechanism, on packs of one instruction set.
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "core/base/pack.h"
@@ -11,7 +12,12 @@ namespace linkstudy {
 
 template <class Isa, int Lanes>
 void run_general(const Mechanism& m, const KernelRun& setting, const LaneCase* cases, int count) {
-  Run<Pack<Lanes, Isa>>(m, setting, cases, count).run();
+  using Real = Pack<Lanes, Isa>;
+  SharedCode<Real> code(setting.code);
+  Run<Real> first(m, setting, {cases, std::min(count, Lanes), 0}, code);
+  if (count <= Lanes) return run_alone(first, code);
+  Run<Real> second(m, setting, {cases + Lanes, count - Lanes, Lanes}, code);
+  run_beside(first, second, code);
 }
 
 template <class Isa, int... Lanes>

@@ -15,9 +15,10 @@ namespace linkstudy {
 
 class PackCode {
  public:
-  // The step for these cases, of which each is `steps` long, in a kernel of `lanes`; none where
-  // written_step has none. Where observers look it writes what they see, unless that is seldom.
-  // Where it fails since cut rows come to depend on each other, another is written for these.
+  // The step for these cases, of which each is `steps` long, in a kernel of `lanes`: up to as many,
+  // or two packs side by side. None where written_step has none. Where observers look it writes
+  // what they see, unless that is seldom. Where it fails since cut rows come to depend on each
+  // other, another is written for these.
   PackCode(const Mechanism& m, std::span<const LaneCase> cases, long steps, const SimdLevel& level,
            int lanes);
   PackCode(const PackCode&) = delete;  // members point into each other's storage
@@ -40,7 +41,7 @@ class PackCode {
   std::span<const LaneCase> cases_;
   long steps_;
   SimdLevel level_;
-  int lanes_;
+  int slot_numbers_;
   ObservedChannels observed_;
   Placed first_;
   Placed dependent_;  // where the first fails

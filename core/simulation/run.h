@@ -17,67 +17,110 @@ namespace linkstudy {
 
 inline constexpr long kStepsBetweenPolls = 256;
 
+// Cases of a run; `place`: of their lanes among the numbers of a slot of written code.
+struct RunCases {
+  const LaneCase* first;
+  int count;
+  int place;
+};
+
 template <class Real>
 class Run {
  public:
   static constexpr int lanes = RealTraits<Real>::lanes;
 
-  Run(const Mechanism& m, const KernelRun& setting, const LaneCase* cases, int count)
+  // Members refer to each other: it stays where it is.
+  Run(const Run&) = delete;
+  Run& operator=(const Run&) = delete;
+  Run(const Mechanism& m, const KernelRun& setting, const RunCases& cases,
+      const SharedCode<Real>& code)
       : m_(m),
         setting_(setting),
-        cases_(cases),
-        count_(count),
-        active_((1u << count) - 1u),
-        p_(pack_parameters<Real>(cases, count)),
+        cases_(cases.first),
+        count_(cases.count),
+        active_((1u << count_) - 1u),
+        p_(pack_parameters<Real>(cases_, count_)),
         size_(state_size(m)),
         y_(static_cast<std::size_t>(size_)),
         correction_(static_cast<std::size_t>(m.nv)),
         contact_steps_(m.contacts.size()),
-        observers_(cases, count),
+        observers_(cases_, count_),
         w_(make_workspace<Real>(m)),
         rk_(static_cast<std::size_t>(size_)),
         now_(m_, p_, w_),
         checks_(m_, p_),
-        watch_(m_, p_, cases, count, setting.count),
-        written_(setting.code, setting.h, setting.drift_limit, p_) {
+        watch_(m_, p_, cases_, count_, setting.count),
+        written_(code, cases.place, setting.h, setting.drift_limit, p_) {
     for (int i = 0; i < lanes; ++i) reset(i);
   }
 
-  void run() {
-    const FlushDenormals flush;
-    for (step_ = 0;; ++step_) {
-      const double t = time();
-      const bool quiet = is_quiet();
-      if (quiet && step_by_code(t)) continue;
-      if (step_ == 0 && m_.contact_count() > 0) {
-        differentiate_kept(t);
-        begin_contact_memory(m_, w_);
-      }
-      differentiate_kept(t);
-      now_.move_to(Real(t), y_.data());
-      if (step_ == 0) checks_.start_ledger(now_);
-      check_state();
-      if (step_ % setting_.energy_stride == 0) check_energy();
-      if (active_ == 0) return;
-      watch_.see(step_, t, y_.data(), w_, active_);
-      record_contacts(t);
-      observers_.observe(
-          step_, [this](int, std::size_t, const Channel& channel) { return now_.sample(channel); });
-      if (step_ == setting_.count) break;
-      if (step_ % kStepsBetweenPolls == 0 && interrupted(t)) return;
-      if (!quiet && advance_by_code(t)) continue;
-      if (m_.contact_count() > 0) {
-        update_contact_memory(m_, w_, contact_steps_.data(), bristles(), contact_log_);
-      }
-      rk_.advance(Real(t), Real(setting_.h), y_.data(),
-                  [this](Real s, Real* y, Real* slope) { differentiate(s, y, slope); });
-      finish_step(Real(t) + Real(setting_.h));
-      if (active_ != kAllLanes<Real>) reset_idle_lanes();
+  // A step up to the written code, or all of what comes before the next one where there is none.
+  // False once all lanes have ended.
+  bool begin_step() {
+    is_quiet_ = is_quiet();
+    if (!is_quiet_ && !look()) return false;
+    asks_ = written_.is_there() && step_ > 0;
+    if (asks_) written_.read(time(), now_.initial_energy(), [this](auto&& f) { for_state(f); });
+    return true;
+  }
+
+  // Whether the code is to do the step that has begun, and whether it has, for all lanes.
+  bool asks_code() const { return asks_; }
+  bool is_fine() const { return (written_.fine() & active_) == active_; }
+
+  // The rest of the step, by the code or, from the same state, by the general loop. False once all
+  // lanes have ended.
+  bool end_step(bool by_code) {
+    if (is_quiet_) {
+      if (by_code && see_step()) return go_on();
+      if (!look()) return false;
+    } else if (by_code) {
+      take_next();
+      return go_on();
     }
-    end_lanes(active_, Cause::ok);
+    advance();
+    return go_on();
   }
 
  private:
+  bool go_on() {
+    ++step_;
+    return true;
+  }
+
+  // The general evaluation of an accepted state, for all who look at it. False once all lanes have
+  // ended.
+  bool look() {
+    const double t = time();
+    if (step_ == 0 && m_.contact_count() > 0) {
+      differentiate_kept(t);
+      begin_contact_memory(m_, w_);
+    }
+    differentiate_kept(t);
+    now_.move_to(Real(t), y_.data());
+    if (step_ == 0) checks_.start_ledger(now_);
+    check_state();
+    if (step_ % setting_.energy_stride == 0) check_energy();
+    if (active_ == 0) return false;
+    watch_.see(step_, t, y_.data(), w_, active_);
+    record_contacts(t);
+    observers_.observe(
+        step_, [this](int, std::size_t, const Channel& channel) { return now_.sample(channel); });
+    if (step_ == setting_.count) end_lanes(active_, Cause::ok);
+    return active_ != 0 && !(step_ % kStepsBetweenPolls == 0 && interrupted(t));
+  }
+
+  [[gnu::noinline]] void advance() {
+    const double t = time();
+    if (m_.contact_count() > 0) {
+      update_contact_memory(m_, w_, contact_steps_.data(), bristles(), contact_log_);
+    }
+    rk_.advance(Real(t), Real(setting_.h), y_.data(),
+                [this](Real s, Real* y, Real* slope) { differentiate(s, y, slope); });
+    finish_step(Real(t) + Real(setting_.h));
+    if (active_ != kAllLanes<Real>) reset_idle_lanes();
+  }
+
   double time() const { return setting_.t0 + static_cast<double>(step_) * setting_.h; }
 
   void evaluate_into(Workspace<Real>& w, Real t, const Real* y, Real* slope) {
@@ -104,11 +147,12 @@ class Run {
            !written_.leaves_out(step_);
   }
 
-  // False, and nothing has changed, where some lane needs the general step.
-  [[gnu::noinline]] bool step_by_code(double t) {
-    if (!run_code(t)) return false;
+  // What looks at a step of the code. False, and nothing has changed, where some lane needs the
+  // general step.
+  [[gnu::noinline]] bool see_step() {
     if (m_.nz > 0 && (lane_bits(watch_.bristles_hold(bristles())) & active_) != active_)
       return false;
+    const double t = time();
     written_.write_kept(w_);
     checks_.see_rank(Real(1.0) > Real(0.0), w_.kept_rows);
     watch_.see(step_, t, y_.data(), w_, active_);
@@ -144,18 +188,6 @@ class Run {
                         lane(now.approach, i), (touched >> i & 1u) != 0, (touches >> i & 1u) != 0});
       }
     }
-  }
-
-  // The same after the general evaluation of this state, which has been looked at.
-  [[gnu::noinline]] bool advance_by_code(double t) {
-    if (!written_.is_there() || step_ == 0 || !run_code(t)) return false;
-    take_next();
-    return true;
-  }
-
-  bool run_code(double t) {
-    written_.read(t, now_.initial_energy(), [this](auto&& f) { for_state(f); });
-    return written_.run(active_);
   }
 
   void take_next() {
@@ -238,6 +270,7 @@ class Run {
   int count_;
   unsigned active_;  // lanes still running, one bit each
   long step_ = 0;
+  bool is_quiet_ = false, asks_ = false;  // of the step that has begun
   Parameters<Real> p_;
   int size_;
   std::vector<Real> y_;  // core/simulation/run_state.h
@@ -252,5 +285,40 @@ class Run {
   StepWatch<Real> watch_;
   WrittenLanes<Real> written_;
 };
+
+template <class Real>
+void run_alone(Run<Real>& run, SharedCode<Real>& code) {
+  const FlushDenormals flush;
+  while (run.begin_step()) {
+    const bool asks = run.asks_code();
+    if (asks) code.run();
+    const bool by_code = asks && run.is_fine();
+    const bool goes_on = run.end_step(by_code);
+    if (asks) code.note(by_code);
+    if (!goes_on) return;
+  }
+}
+
+// Two packs on one frame: the code does a step of both at once. One that has ended goes along.
+template <class Real>
+void run_beside(Run<Real>& first, Run<Real>& second, SharedCode<Real>& code) {
+  const FlushDenormals flush;
+  bool is_first = true, is_second = true;
+  for (;;) {
+    is_first = is_first && first.begin_step();
+    is_second = is_second && second.begin_step();
+    if (!is_first && !is_second) return;
+    const bool first_asks = is_first && first.asks_code();
+    const bool second_asks = is_second && second.asks_code();
+    if (first_asks || second_asks) code.run();
+    const bool first_fine = first_asks && first.is_fine();
+    const bool second_fine = second_asks && second.is_fine();
+    is_first = is_first && first.end_step(first_fine);
+    is_second = is_second && second.end_step(second_fine);
+    if (first_asks || second_asks) {
+      code.note(first_fine == first_asks && second_fine == second_asks);
+    }
+  }
+}
 
 }  // namespace linkstudy

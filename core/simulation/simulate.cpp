@@ -219,21 +219,32 @@ class Packed {
   std::vector<LaneCase> lanes_;
 };
 
-// A lone case takes one lane: the same bits, and faster than a pack of copies.
+// Two packs side by side where there is code for both, or one. A lone case takes one lane: the same
+// bits, and faster than a pack of copies.
 void run_pack(const Mechanism& m, const SimulationOptions& options, std::span<BatchCase> cases,
               const RunLimits& limits, const SimdLevel& level) {
-  const InstructionSet isa = level.isa;
+  const auto width = static_cast<std::size_t>(level.lanes);
   const int lanes = cases.size() == 1 ? 1 : level.lanes;
-  Watch watch{limits};
   Packed packed(m, cases);
   PackCode code(m, packed.lanes(), make_step_grid(options).count, level, lanes);
-  packed.run(options, watch, find_kernel(isa, lanes), code.get());
+  if (cases.size() > width && code.get() == nullptr) {
+    run_pack(m, options, cases.first(width), limits, level);
+    return run_pack(m, options, cases.subspan(width), limits, level);
+  }
+  Watch watch{limits};
+  packed.run(options, watch, find_kernel(level.isa, lanes), code.get());
 }
 
 }  // namespace
 
 bool energy_balances(const SimulationOutcome& outcome) {
   return outcome.energy_residual_max <= kOpenLedger * outcome.energy_scale + kRoundingOfEnergy;
+}
+
+int packs_beside(const SimdLevel& level) {
+  const bool has_room =
+      level.isa == InstructionSet::avx512 && level.lanes > 1 && why_not_written(level).empty();
+  return has_room ? 2 : 1;
 }
 
 StepGrid make_step_grid(const SimulationOptions& options) {
@@ -262,14 +273,14 @@ void simulate_batch(const Mechanism& mechanism, const SimulationOptions& options
 void simulate_batch(const Mechanism& mechanism, const SimulationOptions& options,
                     std::vector<BatchCase>& cases, const RunLimits& limits,
                     const SimdLevel& level) {
-  const auto lanes = static_cast<std::size_t>(level.lanes);
+  const auto most = static_cast<std::size_t>(packs_beside(level) * level.lanes);
   const std::span<BatchCase> all(cases);
   if (all.empty()) return;
   if (options.integrator != Integrator::rk4) {
     return Packed(mechanism, all).run_adaptive(options, limits, level);
   }
-  for (std::size_t i = 0; i < all.size(); i += lanes) {
-    run_pack(mechanism, options, all.subspan(i, std::min(lanes, all.size() - i)), limits, level);
+  for (std::size_t i = 0; i < all.size(); i += most) {
+    run_pack(mechanism, options, all.subspan(i, std::min(most, all.size() - i)), limits, level);
   }
 }
 

@@ -22,6 +22,10 @@
 
 namespace linkstudy {
 
+// Packs of cases with constant steps that may run at once: two where a written step has registers
+// for both and is short enough (core/simulation/written_steps.h).
+int packs_beside(const SimdLevel& level);
+
 // Equal steps that fill the run: count = ceil(end_time / step), h = end_time / count.
 struct StepGrid {
   long count;

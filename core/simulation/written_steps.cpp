@@ -18,6 +18,9 @@ namespace {
 constexpr long kStepsPerFreedom = 500;
 constexpr long kEvaluationsPerStep = 4;
 constexpr std::size_t kMostStructures = 64;
+// The first cache of instructions has room for so much, on all processors with AVX-512. Two packs
+// side by side double the code: beyond, it is fetched more slowly than it gains.
+constexpr std::size_t kShortCode = 32 * 1024;
 
 Known known_of(double x) {
   return x == 0.0    ? Known::zero
@@ -76,11 +79,12 @@ std::unique_ptr<codegen::FrameCode> place_code(const StepTrace& trace, int const
   std::vector<codegen::SlotValue> values;
   for (const InstructionSet isa : {InstructionSet::avx2, InstructionSet::avx512}) {
     if (native_lanes(isa) > step.slot_numbers) continue;
-    const codegen::Program program =
-        codegen::allocate(trace.graph, constants, vector_registers(isa));
+    const codegen::Program program = codegen::allocate(
+        trace.graph, constants, codegen::program_registers(isa, step.slot_numbers));
     auto page = codegen::WrittenCode::place(codegen::assemble(program, isa, step.slot_numbers));
     if (!page) return nullptr;
     (isa == InstructionSet::avx2 ? narrow : wide) = page->function();
+    step.code_bytes = page->size();
     step.pages.push_back(std::move(page));
     step.frame_slots = std::max(step.frame_slots, program.slots);
     values = program.constants;
@@ -98,6 +102,7 @@ struct Asked {
   int slot_numbers;
   bool rows_may_depend;
 
+  bool is_for_two() const { return slot_numbers > native_lanes(InstructionSet::avx512); }
   bool is(const WrittenStep& w) const {
     return w.kind == kind && w.slot_numbers == slot_numbers &&
            w.rows_may_depend == rows_may_depend && same_channels(w.observed, observed);
@@ -131,6 +136,7 @@ struct Structure {
   std::size_t numbers;  // of its parameters: chosen points are no structure
   long steps = 0;       // asked for so far
   bool traceable = true;
+  bool is_short = true;  // as far as is known: two packs go side by side
   std::vector<std::shared_ptr<const WrittenStep>> written;
 };
 
@@ -143,7 +149,8 @@ class Library {
     std::vector<Known> known = known_in_all(cases);
     Structure& s = structure_of(m, known.size());
     s.steps += steps;
-    if (!s.traceable) return nullptr;
+    const bool is_wanted_short = asked.is_for_two() && !asked.rows_may_depend;
+    if (!s.traceable || (is_wanted_short && !s.is_short)) return nullptr;
     const WrittenStep* near = nullptr;
     for (const auto& w : s.written) {
       if (!asked.is(*w)) continue;
@@ -152,7 +159,14 @@ class Library {
     }
     if (choice != Kernels::written && s.steps < kStepsPerFreedom * (m.nv + 1)) return nullptr;
     if (near) known = known_in_both(std::move(known), near->known);
-    return write(asked, m, *cases[0].parameters, std::move(known), s);
+    auto written = write(asked, m, *cases[0].parameters, std::move(known), s);
+    if (written && is_wanted_short && written->code_bytes > kShortCode) {
+      s.is_short = false;
+      s.written.pop_back();
+      --report_.kernels;
+      return nullptr;
+    }
+    return written;
   }
 
   WrittenReport report() {
@@ -171,7 +185,7 @@ class Library {
       std::rotate(structures_.begin(), found, found + 1);
     } else {
       if (structures_.size() == kMostStructures) structures_.pop_back();
-      structures_.insert(structures_.begin(), {m, numbers, 0, true, {}});
+      structures_.insert(structures_.begin(), {m, numbers, 0, true, true, {}});
     }
     return structures_.front();
   }

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <map>
 
+#include "core/simulation/simulate.h"
 #include "study/metrics/invalid_point.h"
 
 namespace linkstudy {
 namespace {
 
 constexpr int kRefills = 4;
+constexpr int kPacksOfRank = 8;  // the last one is late by so small a part, if at all
 
 // In the order of their first points.
 std::vector<std::vector<Point>> sort_by_kind(const std::vector<Point>& points,
@@ -38,11 +40,14 @@ std::vector<Value> deciding_values(const Point& point, const std::vector<Paramet
   return values;
 }
 
-int pack_width(const Evaluator& evaluator, const Point& first, int lanes) {
+int pack_width(const Evaluator& evaluator, const std::vector<Point>& points, int lanes, int ranks) {
   try {
-    const ModelInput model = evaluator.model_at(0, first.values);
-    const bool refills = lanes > 1 && model.options.integrator == Integrator::adaptive;
-    return refills ? kRefills * lanes : lanes;
+    const ModelInput model = evaluator.model_at(0, points.front().values);
+    if (lanes == 1) return lanes;
+    if (model.options.integrator == Integrator::adaptive) return kRefills * lanes;
+    const int beside = packs_beside(simd_level()) * lanes;
+    const bool is_plenty = points.size() >= static_cast<std::size_t>(kPacksOfRank * beside * ranks);
+    return is_plenty ? beside : lanes;
   } catch (const InvalidPoint&) {
     return lanes;
   }

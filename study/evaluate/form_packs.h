@@ -15,8 +15,9 @@ namespace linkstudy {
 std::vector<Value> deciding_values(const Point& point, const std::vector<Parameter>& parameters);
 
 // How many points a rank is given at once: as many as it has lanes; of runs with steps of their own
-// some more, since a lane whose run has ended takes the next.
-int pack_width(const Evaluator& evaluator, const Point& first, int lanes);
+// some more, since a lane whose run has ended takes the next. Of others as many as run at once
+// (packs_beside), while every rank still has so many packs to do that none waits long for the last.
+int pack_width(const Evaluator& evaluator, const std::vector<Point>& points, int lanes, int ranks);
 
 //   size = min(width, max(1, ceil(count / ranks)))
 std::size_t pack_size(std::size_t count, int width, int ranks);

@@ -32,7 +32,7 @@ class Layouts {
       const std::vector<Point> batch(work_.points.begin() + static_cast<std::ptrdiff_t>(i),
                                      work_.points.begin() + static_cast<std::ptrdiff_t>(end));
       std::vector<double> seconds;
-      const int width = pack_width(study_, batch.front(), lanes_);
+      const int width = pack_width(study_, batch, lanes_, ranks);
       for (const auto& pack : form_packs(batch, study_.parameters(), width, ranks)) {
         ++layout.packs;
         layout.widest = std::max(layout.widest, pack.size());

@@ -93,7 +93,7 @@ void StudySession::evaluate(const std::vector<Point>& points) {
   const std::vector<Point> missing = take_known(missing_of(points));
   if (missing.empty()) return;
   const auto& parameters = evaluator_.parameters();
-  const int width = pack_width(evaluator_, missing.front(), simd_level().lanes);
+  const int width = pack_width(evaluator_, missing, simd_level().lanes, pool_.ranks());
   run_packs(sorted(form_packs(missing, parameters, width, pool_.ranks())));
   // What failed outside the evaluations (no memory, a message over its limit) may do alone.
   run_packs(sorted(form_packs(missing_of(missing), parameters, 1, pool_.ranks())));

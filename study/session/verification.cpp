@@ -117,7 +117,7 @@ class Verifier {
     std::vector<Point> points;
     for (const std::uint64_t id : result_.rerun) points.push_back(evaluations_.at(id).point);
     if (points.empty()) return;
-    const int width = pack_width(*evaluator_, points.front(), simd_level().lanes);
+    const int width = pack_width(*evaluator_, points, simd_level().lanes, 1);
     for (const std::vector<Point>& pack : form_packs(points, evaluator_->parameters(), width, 1)) {
       for (Evaluation& found : evaluator_->evaluate(pack)) {
         Evaluation& stored = evaluations_.at(found.point.id);

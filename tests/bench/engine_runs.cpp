@@ -29,13 +29,13 @@ Comparison compare_closure_force(const Mechanism& mechanism, const double* refer
 }  // namespace
 
 EngineRun::EngineRun(const Model& model, const SimdLevel& level, double step, long steps,
-                     bool written)
+                     bool written, int packs)
     : model_(model), kernel_(&find_kernel(level.isa, level.lanes)), step_(step), steps_(steps) {
   y_ = model.start.q;
   y_.insert(y_.end(), model.start.v.begin(), model.start.v.end());
   y_.resize(static_cast<std::size_t>(state_size(model.mechanism)), 0.0);
   reference_.assign(3 * (static_cast<std::size_t>(steps) + 1), 1.0);
-  observers_.resize(static_cast<std::size_t>(level.lanes));
+  observers_.resize(static_cast<std::size_t>(packs * level.lanes));
   for (auto& o : observers_) {
     o.comparisons = {compare_closure_force(model.mechanism, reference_.data(), steps)};
   }
@@ -88,6 +88,12 @@ std::vector<EngineRow> engine_rows(const Model& model, InstructionSet isa, doubl
       EngineRun run(model, {isa, lanes, Kernels::written}, step, steps, written);
       if (run.is_written() != written) continue;
       rows.push_back({std::move(run), std::numeric_limits<double>::infinity(), {}});
+    }
+  }
+  if (level.isa == InstructionSet::avx512) {
+    EngineRun two(model, {isa, level.lanes, Kernels::written}, step, steps, true, 2);
+    if (two.is_written()) {
+      rows.push_back({std::move(two), std::numeric_limits<double>::infinity(), {}});
     }
   }
   return rows;

@@ -24,11 +24,12 @@ double seconds(F&& f) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-// The same case in every lane, run as a study does: closure force compared with a stored reference
-// at every step.
+// The same case in every lane of a pack, or of two side by side, run as a study does: closure force
+// compared with a stored reference at every step.
 class EngineRun {
  public:
-  EngineRun(const Model& model, const SimdLevel& level, double step, long steps, bool written);
+  EngineRun(const Model& model, const SimdLevel& level, double step, long steps, bool written,
+            int packs = 1);
   EngineRun(EngineRun&&) = default;  // no copies: members point into each other's storage
 
   // One run of all steps from the start; seconds per right-hand side and case. Throws if a lane
@@ -36,7 +37,7 @@ class EngineRun {
   double run();
 
   bool is_written() const { return code_ && code_->get() != nullptr; }
-  int lanes() const { return kernel_->lanes; }
+  int lanes() const { return static_cast<int>(cases_.size()); }
   InstructionSet isa() const { return kernel_->isa; }
 
   // The next run starts where the last one ended.
@@ -69,7 +70,7 @@ struct EngineRow {
 };
 
 // The loops for a model on one instruction set: one lane and all lanes, general and, if there is
-// one, written for this structure.
+// one, written for this structure, for two packs too if it is short enough.
 std::vector<EngineRow> engine_rows(const Model& model, InstructionSet isa, double step, long steps);
 
 // Fills the rows; `other` returns its seconds per right-hand side. Returns the least of those.

@@ -20,7 +20,7 @@
 namespace linkstudy::testing::wide_steps_test {
 namespace {
 
-constexpr int kNarrow = 4, kWide = 8, kSteps = 1500, kBetween = 20;
+constexpr int kNarrow = 4, kSteps = 1500, kBetween = 20;
 using Frame = std::vector<double>;
 
 // Frames of a run as they were before a step.
@@ -68,7 +68,7 @@ class Cases {
     w.put_constants(frame.data());
     seen = {w.pages.front()->function(), static_cast<std::size_t>(w.frame_slots * kNarrow), 0, {}};
     codegen::FrameCode code({kNarrow, w.frame_slots, w.slots.end, w.slots.fine}, see_and_step);
-    const StepCode step{&code, w.slots, frame.data(), nullptr, nullptr, 0};
+    const StepCode step{&code, w.slots, kNarrow, frame.data(), nullptr, nullptr, 0};
     const KernelRun run{
         0.0, make_step_grid(options_).h, kSteps, 100, options_.drift_limit, never, nullptr, &step};
     find_kernel(InstructionSet::avx2, kNarrow).run(model_.mechanism, run, cases_.data(), kNarrow);
@@ -89,34 +89,37 @@ class Cases {
 
 class WideStep {
  public:
-  WideStep(const Model& model, const WrittenStep& narrow) : narrow_(narrow) {
+  // On slots of 8 numbers, or of 16 for two packs.
+  WideStep(const Model& model, const WrittenStep& narrow, int width)
+      : narrow_(narrow), width_(width) {
+    constexpr auto isa = InstructionSet::avx512;
     const StepTrace trace =
         trace_step(model.mechanism, model.parameters, narrow.known, {}, narrow.rows_may_depend);
     program_ =
-        codegen::allocate(trace.graph, trace.slots.end, vector_registers(InstructionSet::avx512));
-    const std::vector<std::vector<std::uint8_t>> code = {
-        codegen::assemble(program_, InstructionSet::avx512, kWide)};
+        codegen::allocate(trace.graph, trace.slots.end, codegen::program_registers(isa, width));
+    const std::vector<std::vector<std::uint8_t>> code = {codegen::assemble(program_, isa, width)};
     code_ = Disassembled::read(code).front();
   }
 
-  // Two frames side by side.
-  void expect_bits(const Frame& low, const Frame& high) const {
+  // Of frames that fill the slots side by side.
+  void expect_bits(const std::vector<const Frame*>& parts) const {
     const FlushDenormals flush;
-    Frame wide(static_cast<std::size_t>(program_.slots * kWide));
+    ASSERT_EQ(static_cast<int>(parts.size()) * kNarrow, width_);
+    Frame wide(static_cast<std::size_t>(program_.slots * width_));
     for (const auto& c : program_.constants) {
-      std::fill_n(wide.begin() + c.slot * kWide, kWide, std::bit_cast<double>(c.bits));
+      std::fill_n(wide.begin() + c.slot * width_, width_, std::bit_cast<double>(c.bits));
     }
-    for (int half = 0; half < 2; ++half) {
-      const Frame& from = half == 0 ? low : high;
+    for (int part = 0; part < width_ / kNarrow; ++part) {
+      const Frame& from = *parts[static_cast<std::size_t>(part)];
       for (int slot = 0; slot < narrow_.slots.end; ++slot) {
         std::copy_n(from.begin() + slot * kNarrow, kNarrow,
-                    wide.begin() + slot * kWide + half * kNarrow);
+                    wide.begin() + slot * width_ + part * kNarrow);
       }
     }
     code_.run(wide);
-    for (int half = 0; half < 2; ++half) {
+    for (int part = 0; part < width_ / kNarrow; ++part) {
       codegen::FrameNumbers expected(narrow_.frame_slots * kNarrow);
-      const Frame& from = half == 0 ? low : high;
+      const Frame& from = *parts[static_cast<std::size_t>(part)];
       std::copy(from.begin(), from.end(), expected.data());
       narrow_.pages.front()->function()(expected.data());
       // The step is the code's, in every lane: dependent rows and all.
@@ -126,10 +129,10 @@ class WideStep {
       }
       for (int slot = 0; slot < narrow_.slots.end; ++slot) {
         for (int k = 0; k < kNarrow; ++k) {
-          const double x = wide[static_cast<std::size_t>(slot * kWide + half * kNarrow + k)];
+          const double x = wide[static_cast<std::size_t>(slot * width_ + part * kNarrow + k)];
           const double y = expected.data()[slot * kNarrow + k];
           ASSERT_TRUE(same_bits(x, y) || (std::isnan(x) && std::isnan(y)))
-              << "slot " << slot << " lane " << half * kNarrow + k << ": " << x << " for " << y;
+              << "slot " << slot << " lane " << part * kNarrow + k << ": " << x << " for " << y;
         }
       }
     }
@@ -137,6 +140,7 @@ class WideStep {
 
  private:
   const WrittenStep& narrow_;
+  const int width_;
   codegen::Program program_;
   Disassembled code_;
 };
@@ -159,9 +163,11 @@ TEST(WideSteps, Of_every_shipped_model_have_the_bits_of_narrow_ones) {
       ASSERT_NE(cases.written(), nullptr);
       const std::vector<Frame> frames = cases.frames_of_a_run();
       ASSERT_GE(frames.size(), 2u);
-      const WideStep wide(p.model, *cases.written());
-      wide.expect_bits(frames.front(), frames.back());
-      wide.expect_bits(frames[frames.size() / 2], frames[1]);
+      const Frame &first = frames.front(), &last = frames.back(), &second = frames[1],
+                  &middle = frames[frames.size() / 2];
+      WideStep(p.model, *cases.written(), 8).expect_bits({&first, &last});
+      WideStep(p.model, *cases.written(), 8).expect_bits({&middle, &second});
+      WideStep(p.model, *cases.written(), 16).expect_bits({&first, &last, &middle, &second});
       ++compared;
       with_contacts += cases.touches() ? 1 : 0;
     }

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdio>
@@ -11,6 +12,7 @@
 #include <memory>
 #include <sstream>
 #include <stdexcept>
+#include <string_view>
 
 namespace linkstudy::testing {
 namespace disassembled {
@@ -58,20 +60,35 @@ std::string disassemble(const std::vector<std::uint8_t>& code) {
   return text;
 }
 
-// "[rdi]", "[rdi+0x40]"
-std::uint64_t offset_of(const std::string& text) {
-  const auto begin = text.find("[rdi"), end = text.find(']');
-  if (begin == std::string::npos || end == std::string::npos) throw std::runtime_error(text);
-  const std::string offset = text.substr(begin + 4, end - begin - 4);
-  return offset.empty() ? 0 : std::stoull(offset.substr(1), nullptr, 16);
+constexpr std::array<std::string_view, 9> kAddressRegisters = {"rdi", "rsi", "rdx", "rcx", "r8",
+                                                               "r9",  "r10", "r11", "rax"};
+
+std::size_t address_register(std::string_view name) {
+  const auto found = std::ranges::find(kAddressRegisters, name);
+  if (found == kAddressRegisters.end()) throw std::runtime_error("register " + std::string(name));
+  return static_cast<std::size_t>(found - kAddressRegisters.begin());
+}
+
+// "[rdi]", "[rsi+0x40]", "ZMMWORD PTR [r8-0x40]"
+Operand read_place(const std::string& text, int lanes) {
+  const auto begin = text.find('[') + 1, end = text.find(']');
+  if (begin == 0 || end == std::string::npos) throw std::runtime_error(text);
+  const std::string inside = text.substr(begin, end - begin);
+  const auto sign = inside.find_first_of("+-");
+  Operand place{Kind::memory, 0, lanes, address_register(inside.substr(0, sign))};
+  if (sign != std::string::npos) place.number = std::stoull(inside.substr(sign + 1), nullptr, 16);
+  if (sign != std::string::npos && inside[sign] == '-') place.number = 0 - place.number;
+  return place;
 }
 
 Operand read_operand(const std::string& text) {
   if (text.starts_with("ymm")) return {Kind::vector, std::stoull(text.substr(3)), 4};
   if (text.starts_with("zmm")) return {Kind::vector, std::stoull(text.substr(3)), 8};
   if (text.starts_with("k")) return {Kind::mask, std::stoull(text.substr(1))};
-  if (text.starts_with("YMMWORD PTR")) return {Kind::memory, offset_of(text), 4};
-  if (text.starts_with("ZMMWORD PTR")) return {Kind::memory, offset_of(text), 8};
+  if (text.starts_with("YMMWORD PTR")) return read_place(text, 4);
+  if (text.starts_with("ZMMWORD PTR")) return read_place(text, 8);
+  if (text.starts_with("[")) return read_place(text, 0);
+  if (text.starts_with("r")) return {Kind::address, address_register(text)};
   if (text.starts_with("0x")) return {Kind::immediate, std::stoull(text, nullptr, 16)};
   throw std::runtime_error("operand " + text);
 }
@@ -116,6 +133,11 @@ Rule of_bits(F f) {
   return [f](Bits, Bits y, Bits z) { return Bits{f(y, z)}; };
 }
 
+Bits upper_half_twice(Bits, Bits y, Bits order) {
+  if (order != 0xf5) throw std::runtime_error("vpshufd in another order");
+  return y >> 32 << 32 | y >> 32;
+}
+
 const std::map<std::string, Rule>& simple_rules() {
   static const std::map<std::string, Rule> rules = {
       {"vmovapd", [](Bits, Bits y, Bits) { return y; }},
@@ -129,8 +151,19 @@ const std::map<std::string, Rule>& simple_rules() {
       {"vandpd", of_bits([](Bits a, Bits b) { return a & b; })},
       {"vorpd", of_bits([](Bits a, Bits b) { return a | b; })},
       {"vxorpd", of_bits([](Bits a, Bits b) { return a ^ b; })},
-      {"vpsllq", of_bits([](Bits a, Bits count) { return count < 64 ? a << count : 0; })},
-      {"vpsrlq", of_bits([](Bits a, Bits count) { return count < 64 ? a >> count : 0; })},
+      {"vpsllvq", of_bits([](Bits a, Bits count) { return count < 64 ? a << count : 0; })},
+      {"vpsrlvq", of_bits([](Bits a, Bits count) { return count < 64 ? a >> count : 0; })},
+      {"vpsraq", of_bits([](Bits a, Bits count) {
+         return static_cast<Bits>(static_cast<std::int64_t>(a) >> std::min(count, Bits{63}));
+       })},
+      {"vpsrad", of_bits([](Bits a, Bits count) {
+         const auto half = [count](Bits x) {
+           const auto shifted = static_cast<std::int32_t>(x) >> std::min(count, Bits{31});
+           return Bits{static_cast<std::uint32_t>(shifted)};
+         };
+         return half(a >> 32) << 32 | half(a);
+       })},
+      {"vpshufd", upper_half_twice},
       {"vcmpltpd", [](Bits, Bits y, Bits z) { return mask(number(y) < number(z)); }},
       {"vcmplepd", [](Bits, Bits y, Bits z) { return mask(number(y) <= number(z)); }},
       {"vcmpeqpd", [](Bits, Bits y, Bits z) { return mask(number(y) == number(z)); }},
@@ -171,6 +204,10 @@ class Machine {
 
   void execute(const Instruction& i) {
     if (i.mnemonic == "vzeroupper" || i.mnemonic == "ret") return;
+    if (i.mnemonic == "lea") {
+      addresses_.at(i.operands.at(0).number) = address_of(i.operands.at(1));
+      return;
+    }
     if (i.lanes == 0) throw std::runtime_error("unknown instruction " + i.mnemonic);
     Lanes result{};  // a vector register is zero past what is written
     for (int k = 0; k < i.lanes; ++k) {
@@ -184,11 +221,14 @@ class Machine {
   }
 
  private:
+  Bits address_of(const Operand& o) const { return addresses_.at(o.base) + o.number; }
+
   double& memory(const Operand& o, int k) {
-    const std::size_t at = o.number / sizeof(double) + static_cast<std::size_t>(k);
-    if (o.number % (static_cast<std::size_t>(o.lanes) * sizeof(double)) != 0 ||
+    const Bits address = address_of(o);
+    const std::size_t at = address / sizeof(double) + static_cast<std::size_t>(k);
+    if (address % (static_cast<std::size_t>(o.lanes) * sizeof(double)) != 0 ||
         at >= frame_.size()) {
-      throw std::runtime_error("unaligned or beyond the frame: " + std::to_string(o.number));
+      throw std::runtime_error("unaligned or beyond the frame: " + std::to_string(address));
     }
     return frame_[at];
   }
@@ -201,6 +241,7 @@ class Machine {
         return mask(masks_.at(o.number) >> k & 1);
       case Kind::memory:
         return bits(memory(o, k));
+      case Kind::address:
       case Kind::immediate:
         return o.number;
     }
@@ -221,6 +262,7 @@ class Machine {
   std::span<double> frame_;
   std::array<Lanes, 32> vectors_{};
   std::array<Bits, 8> masks_{};
+  std::array<Bits, kAddressRegisters.size()> addresses_{};  // from the start of the frame
 };
 
 }  // namespace disassembled

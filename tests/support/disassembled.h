@@ -18,11 +18,13 @@ bool has_disassembler();
 // A function of one frame: its numbers stand from the address in rdi on.
 class Disassembled {
  public:
-  // A register of 4 or 8 doubles, a register of one bit a lane, a place in memory, a number.
+  // A register of 4 or 8 doubles, a register of one bit a lane, one of an address, a place in
+  // memory, a number.
   struct Operand {
-    enum class Kind { vector, mask, memory, immediate } kind;
-    std::uint64_t number;  // of the register; offset in memory in bytes
+    enum class Kind { vector, mask, address, memory, immediate } kind;
+    std::uint64_t number;  // of the register; offset in memory in bytes, modulo 2^64
     int lanes = 0;         // of a vector register
+    std::size_t base = 0;  // register that the offset counts from
   };
   struct Instruction {
     std::string mnemonic;

@@ -22,21 +22,28 @@ struct Wanted {
   int inputs, slots;
 };
 
-class Disassembly : public ::testing::TestWithParam<InstructionSet> {
+struct Code {
+  InstructionSet isa;
+  int slot_numbers;
+};
+
+class Disassembly : public ::testing::TestWithParam<Code> {
  protected:
   void SetUp() override {
-    if (codegen::assemble({}, GetParam(), lanes()).empty()) GTEST_SKIP() << "another processor";
+    if (codegen::assemble({}, GetParam().isa, lanes()).empty()) GTEST_SKIP() << "another processor";
     if (!has_disassembler()) GTEST_SKIP() << "no objdump here";
   }
 
-  static int lanes() { return native_lanes(GetParam()); }
+  static int lanes() { return GetParam().slot_numbers; }
 
   void expect_meaning(const std::vector<Wanted>& all, std::mt19937_64& random, int runs) {
     std::vector<Program> programs;
     std::vector<std::vector<std::uint8_t>> codes;
     for (const Wanted& w : all) {
-      programs.push_back(codegen::allocate(*w.graph, w.slots, vector_registers(GetParam())));
-      codes.push_back(codegen::assemble(programs.back(), GetParam(), lanes()));
+      const auto [isa, numbers] = GetParam();
+      programs.push_back(
+          codegen::allocate(*w.graph, w.slots, codegen::program_registers(isa, numbers)));
+      codes.push_back(codegen::assemble(programs.back(), isa, numbers));
     }
     read_ = Disassembled::read(codes);
     ASSERT_EQ(read_.size(), all.size());
@@ -54,16 +61,27 @@ class Disassembly : public ::testing::TestWithParam<InstructionSet> {
 
 using Operand = Disassembled::Operand;
 
-// The greatest number among operands of a kind.
-std::uint64_t greatest(const std::vector<Disassembled>& all, Operand::Kind kind) {
+// The greatest f(operand) among operands of a kind.
+template <class F>
+std::uint64_t greatest(const std::vector<Disassembled>& all, Operand::Kind kind, F&& f) {
   std::uint64_t found = 0;
   for (const Disassembled& d : all) {
     for (const auto& i : d.instructions()) {
       for (const Operand& o : i.operands)
-        if (o.kind == kind) found = std::max(found, o.number);
+        if (o.kind == kind) found = std::max<std::uint64_t>(found, f(o));
     }
   }
   return found;
+}
+
+std::uint64_t number_of(const Operand& o) {
+  return o.number;
+}
+std::uint64_t base_of(const Operand& o) {
+  return o.base;
+}
+std::uint64_t distance_of(const Operand& o) {
+  return static_cast<std::uint64_t>(std::abs(static_cast<std::int64_t>(o.number)));
 }
 
 TEST_P(Disassembly, Of_random_graphs_computes_what_they_say) {
@@ -75,14 +93,19 @@ TEST_P(Disassembly, Of_random_graphs_computes_what_they_say) {
   }
   Graph wide;  // reaches far into its frame
   Value sum = wide.input(0);
-  for (int i = 1; i < 300; ++i) sum = wide.make(Op::madd, wide.input(i), wide.input(i - 1), sum);
-  wide.write(sum, 300);
-  all.push_back({&wide, 300, 301});
+  constexpr int kFar = 2600;
+  for (int i = 1; i < kFar; ++i) sum = wide.make(Op::madd, wide.input(i), wide.input(i - 1), sum);
+  wide.write(sum, kFar);
+  all.push_back({&wide, kFar, kFar + 1});
   std::mt19937_64 random(11);
   expect_meaning(all, random, 1);
   // All registers are used, and offsets of one byte, which count slots there, and of four.
-  EXPECT_EQ(greatest(read_, Operand::Kind::vector), vector_registers(GetParam()) - 1u);
-  EXPECT_GT(greatest(read_, Operand::Kind::memory), 127u * 8u * static_cast<unsigned>(lanes()));
+  EXPECT_EQ(greatest(read_, Operand::Kind::vector, number_of),
+            vector_registers(GetParam().isa) - 1u);
+  EXPECT_EQ(greatest(read_, Operand::Kind::memory, base_of),
+            GetParam().isa == InstructionSet::avx512 ? 8u : 0u);
+  EXPECT_GT(greatest(read_, Operand::Kind::memory, distance_of),
+            128u * 8u * static_cast<unsigned>(GetParam().slot_numbers));
 }
 
 // Every operation, with its operands in each place, on numbers of all kinds.
@@ -120,9 +143,13 @@ TEST_P(Disassembly, Of_a_comparison_and_a_choice_is_short) {
   expect_meaning({{&graph, 2, 3}}, random, 10);
   std::vector<std::string> mnemonics;
   for (const auto& i : read_.front().instructions()) mnemonics.push_back(i.mnemonic);
-  const bool is_wide = GetParam() == InstructionSet::avx512;
-  const std::vector<std::string> wide = {"vmovapd",    "vmovapd", "vcmplepd",   "vpmovm2q",
-                                         "vpternlogq", "vmovapd", "vzeroupper", "ret"};
+  const bool is_wide = GetParam().isa == InstructionSet::avx512;
+  std::vector<std::string> wide = {"vmovapd",    "vmovapd", "vcmplepd",   "vpmovm2q",
+                                   "vpternlogq", "vmovapd", "vzeroupper", "ret"};
+  if (lanes() == 16) {
+    wide = {"vmovapd",  "vmovapd",    "vmovapd",    "vmovapd", "vcmplepd", "vpmovm2q",   "vcmplepd",
+            "vpmovm2q", "vpternlogq", "vpternlogq", "vmovapd", "vmovapd",  "vzeroupper", "ret"};
+  }
   const std::vector<std::string> narrow = {"vmovapd", "vmovapd",    "vcmplepd", "vblendvpd",
                                            "vmovapd", "vzeroupper", "ret"};
   EXPECT_EQ(mnemonics, is_wide ? wide : narrow);
@@ -135,8 +162,13 @@ TEST_P(Disassembly, Finds_an_instruction_that_is_not_there) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, Disassembly,
-                         ::testing::Values(InstructionSet::avx2, InstructionSet::avx512),
-                         [](const auto& of) { return std::string(name_of(of.param)); });
+                         ::testing::Values(Code{InstructionSet::avx2, 4},
+                                           Code{InstructionSet::avx512, 8},
+                                           Code{InstructionSet::avx512, 16}),
+                         [](const auto& of) {
+                           return std::string(name_of(of.param.isa)) + "_" +
+                                  std::to_string(of.param.slot_numbers);
+                         });
 
 }  // namespace
 }  // namespace linkstudy::testing::disassembly_test

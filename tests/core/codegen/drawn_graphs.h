@@ -49,6 +49,7 @@ inline void draw_graph(codegen::Graph& graph, std::mt19937_64& random, int input
                                       Op::madd,   Op::msub,     Op::nmadd,       Op::nmsub,
                                       Op::negate, Op::minimum,  Op::square_root, Op::maximum};
   static constexpr Op comparisons[] = {Op::less, Op::less_equal, Op::equal};
+  static constexpr Op shifts[] = {Op::shift_left, Op::shift_right};
   static constexpr Op on_masks[] = {Op::bit_and, Op::bit_or, Op::bit_xor};
   std::vector<Value> numbers, masks;
   for (int i = 0; i < inputs; ++i) numbers.push_back(graph.input(i));
@@ -58,7 +59,7 @@ inline void draw_graph(codegen::Graph& graph, std::mt19937_64& random, int input
     return list[list.size() - 1 - random() % std::min(breadth, list.size())];
   };
   for (int i = 0; i < operations; ++i) {
-    const auto kind = random() % 10;
+    const auto kind = random() % 11;
     if (kind < 7) {
       const Op op = any_op(on_numbers, random);
       const int n = codegen::operand_count(op);
@@ -68,8 +69,15 @@ inline void draw_graph(codegen::Graph& graph, std::mt19937_64& random, int input
       masks.push_back(graph.make(any_op(comparisons, random), any_of(numbers), any_of(numbers)));
     } else if (kind == 8) {
       masks.push_back(graph.make(any_op(on_masks, random), any_of(masks), any_of(masks)));
-    } else {
+    } else if (kind == 9) {
       numbers.push_back(graph.make(Op::select, any_of(masks), any_of(numbers), any_of(numbers)));
+    } else {
+      // Bits of masks: those of a number that is none are left open.
+      const Value bits =
+          graph.make(any_op(shifts, random), any_of(masks), graph.bits(random() % 80));
+      const Value sign = graph.make(Op::bit_and, bits, graph.sign());
+      numbers.push_back(graph.make(Op::bit_xor, any_of(numbers), sign));
+      masks.push_back(graph.make(Op::sign_mask, bits));
     }
   }
   for (int i = 0; i < outputs; ++i) graph.write(any_of(numbers), inputs + i);

@@ -23,7 +23,7 @@ using codegen::Program;
 using codegen::Value;
 using codegen::WrittenCode;
 
-// The code that this machine can run, on slots of four numbers and of eight.
+// The code that this machine can run, on slots of four numbers, eight and sixteen.
 struct Target {
   InstructionSet isa;
   int slot_numbers;
@@ -31,7 +31,7 @@ struct Target {
 std::vector<Target> targets() {
   std::vector<Target> all;
   for (const Target& t : {Target{InstructionSet::avx2, 4}, Target{InstructionSet::avx2, 8},
-                          Target{InstructionSet::avx512, 8}}) {
+                          Target{InstructionSet::avx512, 8}, Target{InstructionSet::avx512, 16}}) {
     if (machine_has(t.isa)) all.push_back(t);
   }
   return all;
@@ -48,11 +48,13 @@ class WrittenCodeTest : public ::testing::Test {
                                 std::mt19937_64& random) {
     for (const auto& [isa, slot_numbers] : targets()) {
       SCOPED_TRACE(std::string(name_of(isa)) + " on slots of " + std::to_string(slot_numbers));
-      const Program program = codegen::allocate(graph, slots, vector_registers(isa));
+      const Program program =
+          codegen::allocate(graph, slots, codegen::program_registers(isa, slot_numbers));
       const auto code = WrittenCode::place(codegen::assemble(program, isa, slot_numbers));
       ASSERT_NE(code, nullptr);
       DrawnFrame frame(graph, program, inputs, slots, slot_numbers, random);
-      for (int k = 0; k < slot_numbers; k += native_lanes(isa)) {
+      const int together = native_lanes(isa) * codegen::vectors_at_once(isa, slot_numbers);
+      for (int k = 0; k < slot_numbers; k += together) {
         code->function()(frame.numbers().data() + k);
       }
       ASSERT_TRUE(frame.is_as_expected());
@@ -195,6 +197,16 @@ bool is_finite(Fused a) {
 }
 Fused power_of_two(Fused n) {
   return Fused(linkstudy::power_of_two(n.x));
+}
+template <int k>
+Fused sign_from_bit(Fused sum) {
+  return Fused(linkstudy::sign_from_bit<k>(sum.x));
+}
+Fused turned(Fused a, Fused sign) {
+  return Fused(linkstudy::turned(a.x, sign.x));
+}
+bool has_sign(Fused a) {
+  return linkstudy::has_sign(a.x);
 }
 Fused binary_exponent(Fused a) {
   return Fused(linkstudy::binary_exponent(a.x));
