@@ -20,7 +20,7 @@ namespace linkstudy::codegen {
 namespace {
 
 constexpr std::size_t kLongest = 24;  // bytes an instruction of a program: at most two of 12
-constexpr std::size_t kFrame = 12;    // instructions about a program
+constexpr std::size_t kAround = 12;   // instructions before and behind a program
 constexpr std::uint8_t kLess = 1, kLessEqual = 2, kEqual = 0;  // predicates, ordered
 
 constexpr std::uint8_t kUpperHalves = 0xf5;  // of each 64 bits, in vpshufd
@@ -35,39 +35,43 @@ class Assembler : public Xbyak::CodeGenerator {
   static constexpr bool is_wide = std::is_same_v<Vector, Xbyak::Zmm>;
   static constexpr InstructionSet kSet = is_wide ? InstructionSet::avx512 : InstructionSet::avx2;
 
-  Assembler(int slot_numbers, std::size_t size, std::uint8_t* memory)
-      : CodeGenerator(size, memory),
-        slot_bytes_(8 * slot_numbers),
-        parts_(vectors_at_once(kSet, slot_numbers)) {}
+  Assembler(const FrameLayout& layout, std::size_t size, std::uint8_t* memory)
+      : CodeGenerator(size, memory), layout_(layout) {}
 
   void write(const Program& program) {
     place_bases(program.slots);
     for (const Instruction& i : program.instructions) {
-      for (part_ = 0; part_ < parts_; ++part_) write(i);
+      for (frame_ = 0; frame_ < layout_.frames; ++frame_) write(i);
     }
     vzeroupper();
     ret();
   }
 
  private:
-  Vector reg(int i) const { return Vector(part_ * registers_ + i); }
+  Vector reg(int i) const { return Vector(frame_ * registers_ + i); }
 
-  // A slot is reached from the nearest of several places in the frame: AVX-512 counts distances in
+  // A slot is reached from the nearest of several places in its frame: AVX-512 counts distances in
   // vectors, 128 of which take one byte of the instruction in place of four. Long code runs as fast
   // as its bytes are fetched.
   void place_bases(int slots) {
-    if (!is_wide || slots <= reach_ / 2) return;
-    middle_ = reach_ / 2;
-    const auto needed = static_cast<std::size_t>((slots + reach_ - 1) / reach_);
-    bases_ = std::min(needed, kBases.size());
-    for (std::size_t i = bases_; i-- > 0;) lea(kBases[i], ptr[rdi + place_of(i)]);
+    const auto most = kBases.size() / static_cast<std::size_t>(layout_.frames);
+    if (is_wide && slots > kReach / 2) {
+      middle_ = kReach / 2;
+      bases_ = std::min(static_cast<std::size_t>((slots + kReach - 1) / kReach), most);
+    }
+    const std::size_t all = bases_ * static_cast<std::size_t>(layout_.frames);
+    for (std::size_t i = all; i-- > 0;) {
+      const int place = place_of(i % bases_) + static_cast<int>(i / bases_) * frame_bytes_;
+      if (i > 0 || place > 0) lea(kBases[i], ptr[rdi + place]);
+    }
   }
   int place_of(std::size_t base) const {
-    return (static_cast<int>(base) * reach_ + middle_) * slot_bytes_;
+    return (static_cast<int>(base) * kReach + middle_) * slot_bytes_;
   }
   Xbyak::Address memory(int slot) const {
-    const std::size_t base = std::min(static_cast<std::size_t>(slot / reach_), bases_ - 1);
-    return ptr[kBases[base] + (slot * slot_bytes_ + part_ * kVectorBytes - place_of(base))];
+    const std::size_t base = std::min(static_cast<std::size_t>(slot / kReach), bases_ - 1);
+    return ptr[kBases[static_cast<std::size_t>(frame_) * bases_ + base] +
+               (slot * slot_bytes_ - place_of(base))];
   }
 
   // f of the operand, a register or a place in memory.
@@ -134,7 +138,7 @@ class Assembler : public Xbyak::CodeGenerator {
   // To all bits or none.
   void compare(std::uint8_t predicate, const Vector& to, const Vector& a, const Xbyak::Operand& b) {
     if constexpr (is_wide) {
-      const Xbyak::Opmask bits(1 + part_);
+      const Xbyak::Opmask bits(1 + frame_);
       vcmppd(bits, a, b, predicate);
       vpmovm2q(to, bits);
     } else {
@@ -208,23 +212,24 @@ class Assembler : public Xbyak::CodeGenerator {
     vfnmsub231pd(x, y, z);
   }
 
-  static constexpr int kVectorBytes = 8 * native_lanes(kSet);
+  static constexpr int kReach = 256;  // slots about a base
   const std::array<Xbyak::Reg64, 9> kBases{rdi, rsi, rdx, rcx, r8, r9, r10, r11, rax};
 
-  const int slot_bytes_, parts_;
-  const int registers_ = vector_registers(kSet) / parts_;
-  const int reach_ = 256 / parts_;  // slots about a base
-  int part_ = 0;                    // of a slot
-  std::size_t bases_ = 1;
-  int middle_ = 0;  // slot that the first base is at
+  const FrameLayout layout_;
+  const int slot_bytes_ = 8 * layout_.slot_numbers;
+  const int frame_bytes_ = layout_.slots * slot_bytes_;
+  const int registers_ = program_registers(kSet, layout_.frames);
+  int frame_ = 0;          // of the instruction
+  std::size_t bases_ = 1;  // of a frame
+  int middle_ = 0;         // slot that the first is at
 };
 
 template <class Vector>
-std::vector<std::uint8_t> assemble_with(const Program& program, int slot_numbers) {
-  const auto vectors =
-      static_cast<std::size_t>(vectors_at_once(Assembler<Vector>::kSet, slot_numbers));
-  std::vector<std::uint8_t> code((vectors * program.instructions.size() + kFrame) * kLongest);
-  Assembler<Vector> assembler(slot_numbers, code.size(), code.data());
+std::vector<std::uint8_t> assemble_with(const Program& program, const FrameLayout& layout) {
+  const std::size_t instructions =
+      static_cast<std::size_t>(layout.frames) * program.instructions.size() + kAround;
+  std::vector<std::uint8_t> code(instructions * kLongest);
+  Assembler<Vector> assembler(layout, code.size(), code.data());
   assembler.write(program);
   code.resize(assembler.getSize());
   return code;
@@ -232,12 +237,13 @@ std::vector<std::uint8_t> assemble_with(const Program& program, int slot_numbers
 
 }  // namespace
 
-std::vector<std::uint8_t> assemble(const Program& program, InstructionSet isa, int slot_numbers) {
+std::vector<std::uint8_t> assemble(const Program& program, InstructionSet isa,
+                                   const FrameLayout& layout) {
   switch (isa) {
     case InstructionSet::avx512:
-      return assemble_with<Xbyak::Zmm>(program, slot_numbers);
+      return assemble_with<Xbyak::Zmm>(program, layout);
     case InstructionSet::avx2:
-      return assemble_with<Xbyak::Ymm>(program, slot_numbers);
+      return assemble_with<Xbyak::Ymm>(program, layout);
     case InstructionSet::baseline:
       break;
   }
@@ -250,7 +256,7 @@ std::vector<std::uint8_t> assemble(const Program& program, InstructionSet isa, i
 
 namespace linkstudy::codegen {
 
-std::vector<std::uint8_t> assemble(const Program&, InstructionSet, int) {
+std::vector<std::uint8_t> assemble(const Program&, InstructionSet, const FrameLayout&) {
   return {};
 }
 

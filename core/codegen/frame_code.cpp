@@ -31,7 +31,7 @@ bool is_true(double mask) {
 
 enum class Verdict { same, differ, open };
 
-// Open where in some part of the lanes none is fine.
+// Of one frame. Open where in some part of the lanes none is fine.
 Verdict judge(const FrameCode::Frame& f, const double* a, const double* b) {
   std::vector<char> is_seen(static_cast<std::size_t>(f.slot_numbers / kNarrow), 0);
   for (int k = 0; k < f.slot_numbers; ++k) {
@@ -44,6 +44,17 @@ Verdict judge(const FrameCode::Frame& f, const double* a, const double* b) {
   }
   const bool all_seen = std::find(is_seen.begin(), is_seen.end(), 0) == is_seen.end();
   return all_seen ? Verdict::same : Verdict::open;
+}
+
+// Differs where one frame does, and is open where one is.
+Verdict judge_all(const FrameCode::Frame& f, const double* a, const double* b) {
+  Verdict all = Verdict::same;
+  for (int i = 0; i < f.frames && all != Verdict::differ; ++i) {
+    const int at = i * f.slots * f.slot_numbers;
+    const Verdict one = judge(f, a + at, b + at);
+    if (one != Verdict::same) all = one;
+  }
+  return all;
 }
 
 }  // namespace
@@ -64,15 +75,18 @@ void FrameCode::run(double* frame) {
 }
 
 void FrameCode::run_narrow(double* frame) const {
-  for (int k = 0; k < frame_.slot_numbers; k += kNarrow) narrow_(frame + k);
+  for (int i = 0; i < frame_.frames; ++i, frame += frame_.slots * frame_.slot_numbers) {
+    for (int k = 0; k < frame_.slot_numbers; k += kNarrow) narrow_(frame + k);
+  }
 }
 
 void FrameCode::compare(double* frame) {
-  FrameNumbers other(frame_.slots * frame_.slot_numbers);
-  std::copy_n(frame, frame_.slots * frame_.slot_numbers, other.data());
+  const int numbers = frame_.frames * frame_.slots * frame_.slot_numbers;
+  FrameNumbers other(numbers);
+  std::copy_n(frame, numbers, other.data());
   wide_(other.data());
   run_narrow(frame);
-  const Verdict verdict = judge(frame_, other.data(), frame);
+  const Verdict verdict = judge_all(frame_, other.data(), frame);
   Trust before = Trust::untried;
   if (verdict == Verdict::same) trust_.compare_exchange_strong(before, Trust::earned);
   if (verdict == Verdict::differ && trust_.exchange(Trust::none) != Trust::none) ++distrusted;

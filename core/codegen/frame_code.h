@@ -41,16 +41,19 @@ class FrameCode {
     int slot_numbers = 0;  // side by side in a slot
     int slots = 0;
     int compared = 0;  // so many slots have the same meaning for both codes
-    int fine = 0;  // slot of a mask: the code has something to say about a lane where it is true
+    int fine = 0;    // slot of a mask: the code has something to say about a lane where it is true
+    int frames = 1;  // alike, one behind the other
   };
 
-  // `narrow` does the first native_lanes(avx2) numbers of each slot. Without wide code all is its.
+  // `narrow` does the first native_lanes(avx2) numbers of each slot of a frame, `wide` all of all.
+  // Without wide code all is narrow's.
   FrameCode(const Frame& frame, Function narrow, Function wide = nullptr)
       : frame_(frame), narrow_(narrow), wide_(wide) {
     if (wide == nullptr) trust_ = Trust::none;
   }
 
-  // `frame`: aligned to its slots. May be called by several threads, each with a frame of its own.
+  // `frame`: the first, aligned to its slots. May be called by several threads, each with a frame
+  // of its own.
   void run(double* frame);
 
   Trust trust() const { return trust_.load(std::memory_order_relaxed); }

@@ -34,20 +34,23 @@ class WrittenCode {
   std::size_t size_;
 };
 
-// Vectors of a slot that a call does side by side, so that one is computed while the other waits.
-// They share the registers.
-constexpr int vectors_at_once(InstructionSet isa, int slot_numbers) {
-  return isa == InstructionSet::avx512 && slot_numbers == 2 * native_lanes(isa) ? 2 : 1;
-}
+// Frames that a call does side by side, so that one waits for nobody while the other is computed;
+// they share the registers, and the second stands behind the first.
+struct FrameLayout {
+  int slot_numbers = 0;  // doubles a slot
+  int slots = 0;         // of a frame
+  int frames = 1;        // of code for AVX-512 two, else one
+};
 
 // Registers that a program may use.
-constexpr int program_registers(InstructionSet isa, int slot_numbers) {
-  return vector_registers(isa) / vectors_at_once(isa, slot_numbers);
+constexpr int program_registers(InstructionSet isa, int frames) {
+  return vector_registers(isa) / frames;
 }
 
-// The program for AVX2 with fused multiply-add or for AVX-512 (F and DQ), on frames of
-// `slot_numbers` doubles a slot, aligned to vectors: a call does the first vectors_at_once() of
-// each. Empty for the baseline and on other processors than x86-64.
-std::vector<std::uint8_t> assemble(const Program& program, InstructionSet isa, int slot_numbers);
+// The program for AVX2 with fused multiply-add or for AVX-512 (F and DQ): a call does the first
+// native_lanes(isa) numbers of each slot, aligned to as many. Empty for the baseline and on other
+// processors than x86-64.
+std::vector<std::uint8_t> assemble(const Program& program, InstructionSet isa,
+                                   const FrameLayout& layout);
 
 }  // namespace linkstudy::codegen

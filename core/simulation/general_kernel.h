@@ -16,7 +16,7 @@ void run_general(const Mechanism& m, const KernelRun& setting, const LaneCase* c
   SharedCode<Real> code(setting.code);
   Run<Real> first(m, setting, {cases, std::min(count, Lanes), 0}, code);
   if (count <= Lanes) return run_alone(first, code);
-  Run<Real> second(m, setting, {cases + Lanes, count - Lanes, Lanes}, code);
+  Run<Real> second(m, setting, {cases + Lanes, count - Lanes, 1}, code);
   run_beside(first, second, code);
 }
 

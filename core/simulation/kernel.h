@@ -58,13 +58,12 @@ constexpr int slot_numbers(int lanes) {
   return lanes < native_lanes(InstructionSet::avx2) ? native_lanes(InstructionSet::avx2) : lanes;
 }
 
-// Code for a whole step (core/simulation/written_steps.h) and the frame of a pack, or of two side
-// by side: those of a kernel of half as many lanes as a slot has numbers.
+// Code for a whole step (core/simulation/written_steps.h) and the frame of a pack, or those of two.
 struct StepCode {
   codegen::FrameCode* code = nullptr;
   StepSlots slots;
-  int slot_numbers = 0;
   double* frame = nullptr;
+  int frame_numbers = 0;  // from here to the frame of the second pack
   // First channel of each observer, comparisons, reductions and series in this order, among those
   // that the code writes; below 0 of one whose channels it does not write, and when those look.
   const int* first_observed = nullptr;
@@ -107,8 +106,7 @@ struct TrialSetting {
   int observed_count;
 };
 
-// cases: up to as many as the kernel has lanes; where the code's slots have room for more, up to
-// twice as many, which then go side by side.
+// cases: up to as many as the kernel has lanes, or with code for two packs up to twice as many.
 struct Kernel {
   InstructionSet isa;
   int lanes;

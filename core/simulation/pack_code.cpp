@@ -8,7 +8,8 @@ PackCode::PackCode(const Mechanism& m, std::span<const LaneCase> cases, long ste
       cases_(cases),
       steps_(steps),
       level_(level),
-      slot_numbers_(slot_numbers(static_cast<int>(cases.size()) > lanes ? 2 * lanes : lanes)),
+      lanes_(lanes),
+      packs_(static_cast<int>(cases.size()) > lanes ? 2 : 1),
       observed_(m, *cases[0].observers) {
   place(false, first_);
   if (!first_.written || first_.written->rows_may_depend || m.cut_rows.empty()) return;
@@ -24,15 +25,16 @@ const StepCode* PackCode::place_for_dependent_rows() {
 }
 
 void PackCode::place(bool rows_may_depend, Placed& at) {
-  at.written =
-      written_step(m_, cases_, observed_.all(), steps_, level_, slot_numbers_, rows_may_depend);
+  at.written = written_step(m_, cases_, observed_.all(), steps_, level_, slot_numbers(lanes_),
+                            rows_may_depend, packs_);
   if (!at.written) return;
-  at.frame = codegen::FrameNumbers(at.written->frame_slots * at.written->slot_numbers);
+  const int numbers = at.written->frame_slots * at.written->slot_numbers;
+  at.frame = codegen::FrameNumbers(packs_ * numbers);
   at.written->put_constants(at.frame.data());
   at.code = {at.written->code.get(),
              at.written->slots,
-             at.written->slot_numbers,
              at.frame.data(),
+             numbers,
              observed_.first().data(),
              observed_.beyond().data(),
              static_cast<int>(observed_.beyond().size())};

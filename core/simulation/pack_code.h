@@ -41,7 +41,7 @@ class PackCode {
   std::span<const LaneCase> cases_;
   long steps_;
   SimdLevel level_;
-  int slot_numbers_;
+  int lanes_, packs_;
   ObservedChannels observed_;
   Placed first_;
   Placed dependent_;  // where the first fails

@@ -3,6 +3,10 @@
 // case, is set back to its start after every step: nothing grows there, and nothing of it is kept.
 #pragma once
 
+#include <algorithm>
+#include <span>
+#include <vector>
+
 #include "core/base/flush_denormals.h"
 #include "core/forces/contact_memory.h"
 #include "core/numerics/runge_kutta.h"
@@ -17,11 +21,11 @@ namespace linkstudy {
 
 inline constexpr long kStepsBetweenPolls = 256;
 
-// Cases of a run; `place`: of their lanes among the numbers of a slot of written code.
+// Cases of a run, and which it is of the packs that go side by side.
 struct RunCases {
   const LaneCase* first;
   int count;
-  int place;
+  int pack;
 };
 
 template <class Real>
@@ -41,22 +45,25 @@ class Run {
         active_((1u << count_) - 1u),
         p_(pack_parameters<Real>(cases_, count_)),
         size_(state_size(m)),
-        y_(static_cast<std::size_t>(size_)),
+        own_y_(static_cast<std::size_t>(size_)),
+        y_(own_y_.data()),
         correction_(static_cast<std::size_t>(m.nv)),
         contact_steps_(m.contacts.size()),
         observers_(cases_, count_),
         w_(make_workspace<Real>(m)),
-        rk_(static_cast<std::size_t>(size_)),
+        rk_(own_y_.size()),
         now_(m_, p_, w_),
         checks_(m_, p_),
         watch_(m_, p_, cases_, count_, setting.count),
-        written_(code, cases.place, setting.h, setting.drift_limit, p_) {
+        written_(code, cases.pack, setting.h, setting.drift_limit, p_) {
     for (int i = 0; i < lanes; ++i) reset(i);
+    move_state();
   }
 
   // A step up to the written code, or all of what comes before the next one where there is none.
   // False once all lanes have ended.
   bool begin_step() {
+    if (written_.takes_other_code()) move_state();
     is_quiet_ = is_quiet();
     if (!is_quiet_ && !look()) return false;
     asks_ = written_.is_there() && step_ > 0;
@@ -83,6 +90,13 @@ class Run {
   }
 
  private:
+  // To the frame of the written code, if it can stay there.
+  void move_state() {
+    Real* const to = written_.state() != nullptr ? written_.state() : own_y_.data();
+    if (to != y_) std::copy_n(y_, size_, to);
+    y_ = to;
+  }
+
   bool go_on() {
     ++step_;
     return true;
@@ -97,12 +111,12 @@ class Run {
       begin_contact_memory(m_, w_);
     }
     differentiate_kept(t);
-    now_.move_to(Real(t), y_.data());
+    now_.move_to(Real(t), y_);
     if (step_ == 0) checks_.start_ledger(now_);
     check_state();
     if (step_ % setting_.energy_stride == 0) check_energy();
     if (active_ == 0) return false;
-    watch_.see(step_, t, y_.data(), w_, active_);
+    watch_.see(step_, t, y_, w_, active_);
     record_contacts(t);
     observers_.observe(
         step_, [this](int, std::size_t, const Channel& channel) { return now_.sample(channel); });
@@ -115,7 +129,7 @@ class Run {
     if (m_.contact_count() > 0) {
       update_contact_memory(m_, w_, contact_steps_.data(), bristles(), contact_log_);
     }
-    rk_.advance(Real(t), Real(setting_.h), y_.data(),
+    rk_.advance(Real(t), Real(setting_.h), y_,
                 [this](Real s, Real* y, Real* slope) { differentiate(s, y, slope); });
     finish_step(Real(t) + Real(setting_.h));
     if (active_ != kAllLanes<Real>) reset_idle_lanes();
@@ -130,7 +144,7 @@ class Run {
 
   // Leaves everything in the workspace for observers.
   [[gnu::noinline]] void differentiate_kept(double t) {
-    evaluate_into(w_, Real(t), y_.data(), rk_.first_slope());
+    evaluate_into(w_, Real(t), y_, rk_.first_slope());
   }
 
   [[gnu::noinline]] void differentiate(Real t, Real* y, Real* slope) {
@@ -138,7 +152,7 @@ class Run {
     evaluate_into(w_, t, y, slope);
   }
 
-  void finish_step(Real t) { settle_state(m_, p_, t, y_.data(), correction_.data(), w_); }
+  void finish_step(Real t) { settle_state(m_, p_, t, y_, correction_.data(), w_); }
 
   // Nothing happens in a step but the step itself, as far as can be said beforehand.
   bool is_quiet() const {
@@ -155,7 +169,7 @@ class Run {
     const double t = time();
     written_.write_kept(w_);
     checks_.see_rank(Real(1.0) > Real(0.0), w_.kept_rows);
-    watch_.see(step_, t, y_.data(), w_, active_);
+    watch_.see(step_, t, y_, w_, active_);
     record_contacts(t);
     observers_.observe(step_, [this](int observer, std::size_t i, const Channel&) {
       return written_.observed(observer, i);
@@ -197,11 +211,12 @@ class Run {
 
   template <class F>
   void for_state(F&& f) {
-    for_state_numbers<Real>(y_, w_.memory, contact_steps_, contact_log_, checks_.drift_max(), f);
+    const std::span<Real> y(y_, static_cast<std::size_t>(size_));
+    for_state_numbers<Real>(y, w_.memory, contact_steps_, contact_log_, checks_.drift_max(), f);
   }
 
   void check_state() {
-    const auto moving = checks_.moves(m_, y_.data(), w_);
+    const auto moving = checks_.moves(m_, y_, w_);
     const auto closed = checks_.is_closed(m_, w_, Real(setting_.drift_limit));
     checks_.see_rank(moving, w_.kept_rows);
     end_lanes(active_ & ~lane_bits(moving), Cause::diverged);
@@ -262,7 +277,7 @@ class Run {
     set_lane(contact_steps_[contact], i, 0.0);
   }
 
-  Real* bristles() { return y_.data() + m_.nq + m_.nv; }
+  Real* bristles() { return y_ + m_.nq + m_.nv; }
 
   const Mechanism& m_;
   const KernelRun& setting_;
@@ -273,7 +288,8 @@ class Run {
   bool is_quiet_ = false, asks_ = false;  // of the step that has begun
   Parameters<Real> p_;
   int size_;
-  std::vector<Real> y_;  // core/simulation/run_state.h
+  std::vector<Real> own_y_;
+  Real* y_;  // the state (core/simulation/run_state.h), here or in the frame of the written code
   std::vector<Real> correction_;
   IndexedVector<ContactIndex, Real> contact_steps_;  // states in the present contact
   ContactLog<Real> contact_log_;

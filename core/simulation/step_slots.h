@@ -1,9 +1,8 @@
 // A whole step of the classical Runge-Kutta method as one function on a frame of numbers: what it
 // reads and writes, in which order. The same functions walk the numbers of a trace
 // (core/simulation/step_trace.h) and those of a run, so both agree on every slot.
-//   reads   t, h, drift limit, energy at the start; parameters; the state of the run: y, contacts'
-//   memories, their steps,
-//           their log, greatest drift
+//   reads   t, h, drift limit, energy at the start; parameters; the state of the run: y, greatest
+//           drift, contacts' memories, their steps, their log
 //   writes  the state after the step; a mask, true in the lanes for which all is well; contacts and
 //           joint friction before the step, what springs weigh, and the channels that observers
 //           look at
@@ -31,11 +30,12 @@ template <class Real, class Y, class Memory, class Steps, class F>
 inline void for_state_numbers(Y& y, Memory& memory, Steps& steps, ContactLog<Real>& log,
                               Real& drift_max, F&& f) {
   f(y.data(), y.size());
+  f(&drift_max, std::size_t{1});
+  if (steps.size() == 0) return;  // no contacts
   f(numbers_in<Real>(memory), number_count<Real>(memory));
   f(steps.data(), steps.size());
   f(&log.begun, std::size_t{1});
   f(&log.least_steps, std::size_t{1});
-  f(&drift_max, std::size_t{1});
 }
 
 // f(numbers, how many) of what a run keeps of an evaluation (core/simulation/step_watch.h).

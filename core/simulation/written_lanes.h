@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <utility>
 
 #include "core/base/real.h"
 #include "core/simulation/code_failures.h"
@@ -37,12 +38,13 @@ template <class Real>
 class WrittenLanes {
  public:
   static constexpr int lanes = RealTraits<Real>::lanes;
+  static constexpr int width = slot_numbers(lanes);
 
-  // What stays the same during a run goes along; p and code have to outlive it. `first`: of its
-  // lanes, among the numbers of a slot.
-  WrittenLanes(const SharedCode<Real>& code, int first, double h, double drift_limit,
+  // What stays the same during a run goes along; p and code have to outlive it. `pack`: which of
+  // those that go side by side.
+  WrittenLanes(const SharedCode<Real>& code, int pack, double h, double drift_limit,
                const Parameters<Real>& p)
-      : shared_(code), first_(first), h_(h), drift_limit_(drift_limit), p_(p) {
+      : shared_(code), pack_(pack), h_(h), drift_limit_(drift_limit), p_(p) {
     take_code();
   }
 
@@ -56,92 +58,120 @@ class WrittenLanes {
     return false;
   }
 
+  // True if there is other code now than was asked last, with a frame of its own, or none any more.
+  bool takes_other_code() {
+    if (code_ == shared_.get()) return false;
+    take_code();
+    return true;
+  }
+
+  // Where the code reads the state y from, as numbers of the run; null if it cannot stay there.
+  Real* state() const {
+    if constexpr (lanes == width) {
+      return code_ == nullptr ? nullptr : reinterpret_cast<Real*>(place(code_->slots.state));
+    } else {
+      return nullptr;
+    }
+  }
+
   // for_state(f) calls f(numbers, how many), as for_state_numbers does.
   template <class ForState>
   void read(double t, Real initial_energy, ForState&& for_state) {
-    if (code_ != shared_.get()) take_code();
     put(StepSlots::t, Real(t));
     put(StepSlots::initial_energy, initial_energy);
-    double* at = place(code_->slots.state);
-    for_state([this, &at](const Real* x, std::size_t n) {
-      for (std::size_t k = 0; k < n; ++k, at += stride_) put_at(at, x[k]);
-    });
+    put_all(code_->slots.state, for_state);
   }
 
   // Of a step that has been run: lanes for which all is well, one bit each.
   unsigned fine() const {
-    if constexpr (lanes > 1) {
+    if constexpr (lanes == width) {
       typename RealTraits<Real>::Mask mask;
       std::memcpy(&mask, place(code_->slots.fine), sizeof mask);
       return lane_bits(mask);
     } else {
-      std::uint64_t mask = 0;
-      std::memcpy(&mask, place(code_->slots.fine), sizeof mask);
-      return static_cast<unsigned>(mask & 1u);
+      unsigned bits = 0;
+      for (int k = 0; k < lanes; ++k) {
+        std::uint64_t mask = 0;
+        std::memcpy(&mask, place(code_->slots.fine) + k, sizeof mask);
+        bits |= static_cast<unsigned>(mask & 1u) << k;
+      }
+      return bits;
     }
   }
 
   template <class W>
   void write_kept(W& w) const {
     const double* at = place(code_->slots.kept);
-    for_kept_numbers<Real>(w, [this, &at](Real* x, std::size_t n) { get_all(at, x, n); });
+    for_kept_numbers<Real>(w, [&at](Real* x, std::size_t n) { get_all(at, x, n); });
   }
 
   // Channel i of an observer.
   Real observed(int observer, std::size_t i) const {
-    Real x;
-    get_at(place(code_->slots.observed + code_->first_observed[observer] + static_cast<int>(i)), x);
-    return x;
+    return get(
+        place(code_->slots.observed + code_->first_observed[observer] + static_cast<int>(i)));
   }
 
   template <class ForState>
   void write_next(ForState&& for_state) const {
     const double* at = place(code_->slots.next);
-    for_state([this, &at](Real* x, std::size_t n) { get_all(at, x, n); });
+    for_state([&at](Real* x, std::size_t n) { get_all(at, x, n); });
   }
 
  private:
   void take_code() {
     code_ = shared_.get();
     if (code_ == nullptr) return;
-    stride_ = code_->slot_numbers;
+    frame_ = code_->frame + pack_ * code_->frame_numbers;
     put(StepSlots::h, Real(h_));
     put(StepSlots::drift_limit, Real(drift_limit_));
-    double* at = place(StepSlots::parameters);
-    for_parameter_numbers<Real>(p_, [this, &at](const Real* x, std::size_t n) {
-      for (std::size_t k = 0; k < n; ++k, at += stride_) put_at(at, x[k]);
+    put_all(StepSlots::parameters,
+            [this](auto&& f) { for_parameter_numbers<Real>(p_, std::forward<decltype(f)>(f)); });
+  }
+
+  double* place(int slot) const { return frame_ + slot * width; }
+
+  // What stands there already stays.
+  template <class ForNumbers>
+  void put_all(int slot, ForNumbers&& for_numbers) const {
+    double* at = place(slot);
+    for_numbers([&at](const Real* x, std::size_t n) {
+      double* const end = at + n * width;
+      if (static_cast<const void*>(x) != at) {
+        for (; at != end; at += width, ++x) put_at(at, *x);
+      }
+      at = end;
     });
   }
+  void put(int slot, const Real& x) const { put_at(place(slot), x); }
 
-  double* place(int slot) const { return code_->frame + slot * stride_ + first_; }
-
-  // One lane stands alone in its slots, and what is beside it does the same.
-  void put_at(double* at, const Real& x) const {
-    if constexpr (lanes > 1) {
-      std::memcpy(at, &x, sizeof x);
+  static void put_at(double* at, const Real& x) {
+    if constexpr (lanes == width) {
+      std::memcpy(at, &x, width * sizeof(double));
     } else {
-      for (int k = 0; k < stride_; ++k) at[k] = lane(x, 0);
+      for (int k = 0; k < width; ++k) at[k] = lane(x, k < lanes ? k : lanes - 1);
     }
   }
-  void put(int slot, const Real& x) { put_at(place(slot), x); }
 
-  static void get_at(const double* at, Real& x) {
-    if constexpr (lanes > 1) {
-      std::memcpy(&x, at, sizeof x);
-    } else {
-      set_lane(x, 0, *at);
-    }
+  static void get_all(const double*& at, Real* x, std::size_t n) {
+    const double* const end = at + n * width;
+    for (; at != end; at += width, ++x) *x = get(at);
   }
-  void get_all(const double*& at, Real* x, std::size_t n) const {
-    for (std::size_t k = 0; k < n; ++k, at += stride_) get_at(at, x[k]);
+  static Real get(const double* at) {
+    Real x;
+    if constexpr (lanes == width) {
+      std::memcpy(&x, at, width * sizeof(double));
+    } else {
+      for (int k = 0; k < lanes; ++k) set_lane(x, k, at[k]);
+    }
+    return x;
   }
 
   const SharedCode<Real>& shared_;
-  const int first_;
+  const int pack_;
   const double h_, drift_limit_;
   const Parameters<Real>& p_;
   const StepCode* code_ = nullptr;  // that the frame was last filled for
-  int stride_ = 0;
+  double* frame_ = nullptr;
 };
 
 }  // namespace linkstudy

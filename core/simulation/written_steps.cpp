@@ -75,24 +75,29 @@ std::vector<Known> known_in_both(std::vector<Known> a, const std::vector<Known>&
 // machine refuses executable memory.
 std::unique_ptr<codegen::FrameCode> place_code(const StepTrace& trace, int constants,
                                                WrittenStep& step) {
-  codegen::WrittenCode::Function narrow = nullptr, wide = nullptr;
-  std::vector<codegen::SlotValue> values;
+  std::vector<std::pair<InstructionSet, codegen::Program>> programs;
   for (const InstructionSet isa : {InstructionSet::avx2, InstructionSet::avx512}) {
     if (native_lanes(isa) > step.slot_numbers) continue;
-    const codegen::Program program = codegen::allocate(
-        trace.graph, constants, codegen::program_registers(isa, step.slot_numbers));
-    auto page = codegen::WrittenCode::place(codegen::assemble(program, isa, step.slot_numbers));
+    const int frames = isa == InstructionSet::avx512 ? step.packs : 1;
+    programs.emplace_back(
+        isa, codegen::allocate(trace.graph, constants, codegen::program_registers(isa, frames)));
+    step.frame_slots = std::max(step.frame_slots, programs.back().second.slots);
+  }
+  codegen::WrittenCode::Function narrow = nullptr, wide = nullptr;
+  for (const auto& [isa, program] : programs) {
+    const bool is_wide = isa == InstructionSet::avx512;
+    auto page = codegen::WrittenCode::place(codegen::assemble(
+        program, isa, {step.slot_numbers, step.frame_slots, is_wide ? step.packs : 1}));
     if (!page) return nullptr;
-    (isa == InstructionSet::avx2 ? narrow : wide) = page->function();
+    (is_wide ? wide : narrow) = page->function();
     step.code_bytes = page->size();
     step.pages.push_back(std::move(page));
-    step.frame_slots = std::max(step.frame_slots, program.slots);
-    values = program.constants;
   }
+  const std::vector<codegen::SlotValue>& values = programs.front().second.constants;
   step.constants.insert(step.constants.end(), values.begin(), values.end());
   const codegen::FrameCode::Frame frame{step.slot_numbers, step.frame_slots,
                                         constants + static_cast<int>(values.size()),
-                                        trace.slots.fine};
+                                        trace.slots.fine, step.packs};
   return std::make_unique<codegen::FrameCode>(frame, narrow, wide);
 }
 
@@ -102,9 +107,10 @@ struct Asked {
   int slot_numbers;
   bool rows_may_depend;
 
-  bool is_for_two() const { return slot_numbers > native_lanes(InstructionSet::avx512); }
+  int packs = 1;
+
   bool is(const WrittenStep& w) const {
-    return w.kind == kind && w.slot_numbers == slot_numbers &&
+    return w.kind == kind && w.slot_numbers == slot_numbers && w.packs == packs &&
            w.rows_may_depend == rows_may_depend && same_channels(w.observed, observed);
   }
 };
@@ -115,6 +121,7 @@ std::optional<WrittenStep> write_step(const Asked& asked, const Mechanism& m,
   WrittenStep step;
   step.kind = asked.kind;
   step.slot_numbers = asked.slot_numbers;
+  step.packs = asked.packs;
   step.rows_may_depend = asked.rows_may_depend;
   step.observed = asked.observed;
   const bool is_trial = asked.kind == WrittenKind::trial;
@@ -149,7 +156,7 @@ class Library {
     std::vector<Known> known = known_in_all(cases);
     Structure& s = structure_of(m, known.size());
     s.steps += steps;
-    const bool is_wanted_short = asked.is_for_two() && !asked.rows_may_depend;
+    const bool is_wanted_short = asked.packs > 1 && !asked.rows_may_depend;
     if (!s.traceable || (is_wanted_short && !s.is_short)) return nullptr;
     const WrittenStep* near = nullptr;
     for (const auto& w : s.written) {
@@ -223,16 +230,18 @@ Library& library() {
 
 bool may_execute() {
   static const bool may =
-      codegen::WrittenCode::place(codegen::assemble({}, InstructionSet::avx2,
-                                                    native_lanes(InstructionSet::avx2))) != nullptr;
+      codegen::WrittenCode::place(codegen::assemble(
+          {}, InstructionSet::avx2, {native_lanes(InstructionSet::avx2)})) != nullptr;
   return may;
 }
 
 }  // namespace
 
 void WrittenStep::put_constants(double* frame) const {
-  for (const auto& [slot, bits] : constants) {
-    std::fill_n(frame + slot * slot_numbers, slot_numbers, std::bit_cast<double>(bits));
+  for (int pack = 0; pack < packs; ++pack, frame += frame_slots * slot_numbers) {
+    for (const auto& [slot, bits] : constants) {
+      std::fill_n(frame + slot * slot_numbers, slot_numbers, std::bit_cast<double>(bits));
+    }
   }
 }
 
@@ -249,10 +258,10 @@ WrittenReport written_report() {
 std::shared_ptr<const WrittenStep> written_step(const Mechanism& m, std::span<const LaneCase> cases,
                                                 const std::vector<Channel>& observed, long steps,
                                                 const SimdLevel& level, int slot_numbers,
-                                                bool rows_may_depend) {
+                                                bool rows_may_depend, int packs) {
   if (!why_not_written(level).empty()) return nullptr;
   const bool may = rows_may_depend || rows_depend_at_start(m, cases[0]);
-  return library().find({WrittenKind::step, observed, slot_numbers, may}, m, cases, steps,
+  return library().find({WrittenKind::step, observed, slot_numbers, may, packs}, m, cases, steps,
                         level.kernels);
 }
 

@@ -24,18 +24,19 @@ enum class WrittenKind { step, trial };
 struct WrittenStep {
   WrittenKind kind = WrittenKind::step;
   int slot_numbers = 0;
+  int packs = 1;                 // that go side by side, each on a frame of its own
   bool rows_may_depend = false;  // right for cut rows that depend on each other, too
   StepSlots slots;               // of a trial: `fine` and `end` (core/simulation/trial_slots.h)
   std::vector<Channel> observed;
   std::vector<Known> known;
   std::vector<codegen::SlotValue> constants;
-  int frame_slots = 0;
+  int frame_slots = 0;         // of one frame
   std::size_t code_bytes = 0;  // of the widest
   std::vector<std::unique_ptr<codegen::WrittenCode>> pages;
   std::unique_ptr<codegen::FrameCode> code;
   std::unique_ptr<codegen::FrameCode> inside;  // of trials: instants inside steps
 
-  // Writes the constants into a frame for this code.
+  // Writes the constants into the frames for this code.
   void put_constants(double* frame) const;
 };
 
@@ -52,15 +53,15 @@ WrittenReport written_report();
 // Why this process runs the general step loop alone, or empty. Asks for executable memory once.
 std::string why_not_written(const SimdLevel& level);
 
-// The step for a pack that writes these channels, on a frame of `slot_numbers` a slot, or null: its
-// structure cannot be traced, its code is too long for two packs side by side, this machine has no
-// AVX2 or refuses executable memory, or what is left to run is too little to gain by it. Right for
-// cut rows that depend on each other if they do at the start of the first case, or rows_may_depend
-// says so. May be called by several threads.
+// The step for a pack, or for two (those of the last cases), that writes these channels, on frames
+// of `slot_numbers` a slot, or null: its structure cannot be traced, its code is too long for two
+// packs, this machine has no AVX2 or refuses executable memory, or what is left to run is too
+// little to gain by it. Right for cut rows that depend on each other if they do at the start of the
+// first case, or rows_may_depend says so. May be called by several threads.
 std::shared_ptr<const WrittenStep> written_step(const Mechanism& m, std::span<const LaneCase> cases,
                                                 const std::vector<Channel>& observed, long steps,
                                                 const SimdLevel& level, int slot_numbers,
-                                                bool rows_may_depend = false);
+                                                bool rows_may_depend = false, int packs = 1);
 
 // The same of trials and instants inside steps, where the equations of motion have been evaluated
 // so often since the last question.

@@ -20,7 +20,7 @@
 namespace linkstudy::testing::wide_steps_test {
 namespace {
 
-constexpr int kNarrow = 4, kSteps = 1500, kBetween = 20;
+constexpr int kNarrow = 4, kWide = 8, kSteps = 1500, kBetween = 20;
 using Frame = std::vector<double>;
 
 // Frames of a run as they were before a step.
@@ -68,7 +68,7 @@ class Cases {
     w.put_constants(frame.data());
     seen = {w.pages.front()->function(), static_cast<std::size_t>(w.frame_slots * kNarrow), 0, {}};
     codegen::FrameCode code({kNarrow, w.frame_slots, w.slots.end, w.slots.fine}, see_and_step);
-    const StepCode step{&code, w.slots, kNarrow, frame.data(), nullptr, nullptr, 0};
+    const StepCode step{&code, w.slots, frame.data(), 0, nullptr, nullptr, 0};
     const KernelRun run{
         0.0, make_step_grid(options_).h, kSteps, 100, options_.drift_limit, never, nullptr, &step};
     find_kernel(InstructionSet::avx2, kNarrow).run(model_.mechanism, run, cases_.data(), kNarrow);
@@ -89,35 +89,37 @@ class Cases {
 
 class WideStep {
  public:
-  // On slots of 8 numbers, or of 16 for two packs.
-  WideStep(const Model& model, const WrittenStep& narrow, int width)
-      : narrow_(narrow), width_(width) {
+  // On one frame of 8 numbers a slot, or on two.
+  WideStep(const Model& model, const WrittenStep& narrow, int frames)
+      : narrow_(narrow), frames_(frames) {
     constexpr auto isa = InstructionSet::avx512;
     const StepTrace trace =
         trace_step(model.mechanism, model.parameters, narrow.known, {}, narrow.rows_may_depend);
     program_ =
-        codegen::allocate(trace.graph, trace.slots.end, codegen::program_registers(isa, width));
-    const std::vector<std::vector<std::uint8_t>> code = {codegen::assemble(program_, isa, width)};
+        codegen::allocate(trace.graph, trace.slots.end, codegen::program_registers(isa, frames));
+    const std::vector<std::vector<std::uint8_t>> code = {
+        codegen::assemble(program_, isa, {kWide, program_.slots, frames})};
     code_ = Disassembled::read(code).front();
   }
 
-  // Of frames that fill the slots side by side.
+  // Of narrow frames that fill the slots side by side.
   void expect_bits(const std::vector<const Frame*>& parts) const {
     const FlushDenormals flush;
-    ASSERT_EQ(static_cast<int>(parts.size()) * kNarrow, width_);
-    Frame wide(static_cast<std::size_t>(program_.slots * width_));
-    for (const auto& c : program_.constants) {
-      std::fill_n(wide.begin() + c.slot * width_, width_, std::bit_cast<double>(c.bits));
+    ASSERT_EQ(static_cast<int>(parts.size()) * kNarrow, frames_ * kWide);
+    Frame wide(static_cast<std::size_t>(frames_ * program_.slots * kWide));
+    for (int frame = 0; frame < frames_; ++frame) {
+      for (const auto& c : program_.constants) {
+        std::fill_n(wide.begin() + place(frame, c.slot), kWide, std::bit_cast<double>(c.bits));
+      }
     }
-    for (int part = 0; part < width_ / kNarrow; ++part) {
+    for (int part = 0; part < static_cast<int>(parts.size()); ++part) {
       const Frame& from = *parts[static_cast<std::size_t>(part)];
       for (int slot = 0; slot < narrow_.slots.end; ++slot) {
-        std::copy_n(from.begin() + slot * kNarrow, kNarrow,
-                    wide.begin() + slot * width_ + part * kNarrow);
+        std::copy_n(from.begin() + slot * kNarrow, kNarrow, wide.begin() + place_of(part, slot));
       }
     }
     code_.run(wide);
-    for (int part = 0; part < width_ / kNarrow; ++part) {
+    for (int part = 0; part < static_cast<int>(parts.size()); ++part) {
       codegen::FrameNumbers expected(narrow_.frame_slots * kNarrow);
       const Frame& from = *parts[static_cast<std::size_t>(part)];
       std::copy(from.begin(), from.end(), expected.data());
@@ -129,7 +131,7 @@ class WideStep {
       }
       for (int slot = 0; slot < narrow_.slots.end; ++slot) {
         for (int k = 0; k < kNarrow; ++k) {
-          const double x = wide[static_cast<std::size_t>(slot * width_ + part * kNarrow + k)];
+          const double x = wide[static_cast<std::size_t>(place_of(part, slot) + k)];
           const double y = expected.data()[slot * kNarrow + k];
           ASSERT_TRUE(same_bits(x, y) || (std::isnan(x) && std::isnan(y)))
               << "slot " << slot << " lane " << part * kNarrow + k << ": " << x << " for " << y;
@@ -139,8 +141,13 @@ class WideStep {
   }
 
  private:
+  int place(int frame, int slot) const { return (frame * program_.slots + slot) * kWide; }
+  int place_of(int part, int slot) const {
+    return place(part * kNarrow / kWide, slot) + part * kNarrow % kWide;
+  }
+
   const WrittenStep& narrow_;
-  const int width_;
+  const int frames_;
   codegen::Program program_;
   Disassembled code_;
 };
@@ -165,9 +172,9 @@ TEST(WideSteps, Of_every_shipped_model_have_the_bits_of_narrow_ones) {
       ASSERT_GE(frames.size(), 2u);
       const Frame &first = frames.front(), &last = frames.back(), &second = frames[1],
                   &middle = frames[frames.size() / 2];
-      WideStep(p.model, *cases.written(), 8).expect_bits({&first, &last});
-      WideStep(p.model, *cases.written(), 8).expect_bits({&middle, &second});
-      WideStep(p.model, *cases.written(), 16).expect_bits({&first, &last, &middle, &second});
+      WideStep(p.model, *cases.written(), 1).expect_bits({&first, &last});
+      WideStep(p.model, *cases.written(), 1).expect_bits({&middle, &second});
+      WideStep(p.model, *cases.written(), 2).expect_bits({&first, &last, &middle, &second});
       ++compared;
       with_contacts += cases.touches() ? 1 : 0;
     }

@@ -22,36 +22,28 @@ struct Wanted {
   int inputs, slots;
 };
 
-struct Code {
-  InstructionSet isa;
-  int slot_numbers;
-};
-
-class Disassembly : public ::testing::TestWithParam<Code> {
+class Disassembly : public ::testing::TestWithParam<Target> {
  protected:
   void SetUp() override {
-    if (codegen::assemble({}, GetParam().isa, lanes()).empty()) GTEST_SKIP() << "another processor";
+    if (GetParam().assemble({}).empty()) GTEST_SKIP() << "another processor";
     if (!has_disassembler()) GTEST_SKIP() << "no objdump here";
   }
-
-  static int lanes() { return GetParam().slot_numbers; }
 
   void expect_meaning(const std::vector<Wanted>& all, std::mt19937_64& random, int runs) {
     std::vector<Program> programs;
     std::vector<std::vector<std::uint8_t>> codes;
     for (const Wanted& w : all) {
-      const auto [isa, numbers] = GetParam();
-      programs.push_back(
-          codegen::allocate(*w.graph, w.slots, codegen::program_registers(isa, numbers)));
-      codes.push_back(codegen::assemble(programs.back(), isa, numbers));
+      programs.push_back(GetParam().allocate(*w.graph, w.slots));
+      codes.push_back(GetParam().assemble(programs.back()));
     }
     read_ = Disassembled::read(codes);
     ASSERT_EQ(read_.size(), all.size());
     for (std::size_t i = 0; i < all.size(); ++i) {
       for (int run = 0; run < runs; ++run) {
-        DrawnFrame frame(*all[i].graph, programs[i], all[i].inputs, all[i].slots, lanes(), random);
-        read_[i].run(frame.numbers());
-        ASSERT_TRUE(frame.is_as_expected()) << "graph " << i;
+        DrawnFrames frames(*all[i].graph, programs[i], all[i].inputs, all[i].slots, GetParam(),
+                           random);
+        read_[i].run(frames.numbers());
+        ASSERT_TRUE(frames.are_as_expected()) << "graph " << i;
       }
     }
   }
@@ -102,8 +94,10 @@ TEST_P(Disassembly, Of_random_graphs_computes_what_they_say) {
   // All registers are used, and offsets of one byte, which count slots there, and of four.
   EXPECT_EQ(greatest(read_, Operand::Kind::vector, number_of),
             vector_registers(GetParam().isa) - 1u);
-  EXPECT_EQ(greatest(read_, Operand::Kind::memory, base_of),
-            GetParam().isa == InstructionSet::avx512 ? 8u : 0u);
+  EXPECT_EQ(greatest(read_, Operand::Kind::memory, base_of), GetParam().isa == InstructionSet::avx2
+                                                                 ? 0u
+                                                             : GetParam().frames == 1 ? 8u
+                                                                                      : 7u);
   EXPECT_GT(greatest(read_, Operand::Kind::memory, distance_of),
             128u * 8u * static_cast<unsigned>(GetParam().slot_numbers));
 }
@@ -146,9 +140,10 @@ TEST_P(Disassembly, Of_a_comparison_and_a_choice_is_short) {
   const bool is_wide = GetParam().isa == InstructionSet::avx512;
   std::vector<std::string> wide = {"vmovapd",    "vmovapd", "vcmplepd",   "vpmovm2q",
                                    "vpternlogq", "vmovapd", "vzeroupper", "ret"};
-  if (lanes() == 16) {
-    wide = {"vmovapd",  "vmovapd",    "vmovapd",    "vmovapd", "vcmplepd", "vpmovm2q",   "vcmplepd",
-            "vpmovm2q", "vpternlogq", "vpternlogq", "vmovapd", "vmovapd",  "vzeroupper", "ret"};
+  if (GetParam().frames == 2) {
+    wide = {"lea",        "vmovapd",  "vmovapd",  "vmovapd",    "vmovapd",
+            "vcmplepd",   "vpmovm2q", "vcmplepd", "vpmovm2q",   "vpternlogq",
+            "vpternlogq", "vmovapd",  "vmovapd",  "vzeroupper", "ret"};
   }
   const std::vector<std::string> narrow = {"vmovapd", "vmovapd",    "vcmplepd", "vblendvpd",
                                            "vmovapd", "vzeroupper", "ret"};
@@ -162,13 +157,10 @@ TEST_P(Disassembly, Finds_an_instruction_that_is_not_there) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, Disassembly,
-                         ::testing::Values(Code{InstructionSet::avx2, 4},
-                                           Code{InstructionSet::avx512, 8},
-                                           Code{InstructionSet::avx512, 16}),
-                         [](const auto& of) {
-                           return std::string(name_of(of.param.isa)) + "_" +
-                                  std::to_string(of.param.slot_numbers);
-                         });
+                         ::testing::Values(Target{InstructionSet::avx2, 4},
+                                           Target{InstructionSet::avx512, 8},
+                                           Target{InstructionSet::avx512, 8, 2}),
+                         [](const auto& of) { return of.param.name(); });
 
 }  // namespace
 }  // namespace linkstudy::testing::disassembly_test

@@ -1,6 +1,7 @@
 // Graphs and numbers of all kinds, drawn at random.
 #pragma once
 
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,10 +10,12 @@
 #include <limits>
 #include <random>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/codegen/allocation.h"
 #include "core/codegen/frame_code.h"
+#include "core/codegen/written_code.h"
 #include "tests/support/same_bits.h"
 
 namespace linkstudy::testing {
@@ -97,46 +100,66 @@ struct DrawnGraph {
   int inputs, slots;
 };
 
-// A frame for a program with drawn inputs, and what interpretation of the graph makes of them.
-class DrawnFrame {
+// Code on a frame of `slot_numbers` a slot, or on several behind each other.
+struct Target {
+  InstructionSet isa;
+  int slot_numbers;
+  int frames = 1;
+
+  std::string name() const { return fmt::format("{}_{}x{}", name_of(isa), frames, slot_numbers); }
+  codegen::Program allocate(const codegen::Graph& graph, int slots) const {
+    return codegen::allocate(graph, slots, codegen::program_registers(isa, frames));
+  }
+  std::vector<std::uint8_t> assemble(const codegen::Program& program) const {
+    return codegen::assemble(program, isa, {slot_numbers, program.slots, frames});
+  }
+};
+
+// Frames for a program with drawn inputs, and what interpretation of the graph makes of them.
+class DrawnFrames {
  public:
-  DrawnFrame(const codegen::Graph& graph, const codegen::Program& program, int inputs, int slots,
-             int slot_numbers, std::mt19937_64& random)
-      : slot_numbers_(slot_numbers), slots_(slots), frame_(program.slots * slot_numbers) {
-    std::fill_n(frame_.data(), program.slots * slot_numbers, std::nan(""));
-    for (const auto& c : program.constants) {
-      std::fill_n(slot(c.slot), slot_numbers, std::bit_cast<double>(c.bits));
-    }
-    for (int k = 0; k < slot_numbers; ++k) {
+  DrawnFrames(const codegen::Graph& graph, const codegen::Program& program, int inputs, int slots,
+              const Target& target, std::mt19937_64& random)
+      : slot_numbers_(target.slot_numbers),
+        lanes_(target.frames * slot_numbers_),
+        slots_(slots),
+        frame_slots_(program.slots),
+        frames_(program.slots * lanes_) {
+    std::fill_n(frames_.data(), program.slots * lanes_, std::nan(""));
+    for (int k = 0; k < lanes_; ++k) {
+      for (const auto& c : program.constants) number(c.slot, k) = std::bit_cast<double>(c.bits);
       std::vector<double>& lane = expected_.emplace_back(static_cast<std::size_t>(slots));
       for (int i = 0; i < inputs; ++i) {
-        slot(i)[k] = lane[static_cast<std::size_t>(i)] = draw_number(random);
+        number(i, k) = lane[static_cast<std::size_t>(i)] = draw_number(random);
       }
       interpret(graph, lane);
     }
-    size_ = static_cast<std::size_t>(program.slots * slot_numbers);
   }
 
-  std::span<double> numbers() { return {frame_.data(), size_}; }
+  std::span<double> numbers() {
+    return {frames_.data(), static_cast<std::size_t>(frame_slots_ * lanes_)};
+  }
 
-  ::testing::AssertionResult is_as_expected() {
-    for (int k = 0; k < slot_numbers_; ++k) {
+  ::testing::AssertionResult are_as_expected() {
+    for (int k = 0; k < lanes_; ++k) {
       for (int i = 0; i < slots_; ++i) {
         const double expected = expected_[static_cast<std::size_t>(k)][static_cast<std::size_t>(i)];
-        if (same_number(slot(i)[k], expected)) continue;
+        if (same_number(number(i, k), expected)) continue;
         return ::testing::AssertionFailure()
-               << "slot " << i << " lane " << k << ": " << slot(i)[k] << " for " << expected;
+               << "slot " << i << " lane " << k << ": " << number(i, k) << " for " << expected;
       }
     }
     return ::testing::AssertionSuccess();
   }
 
  private:
-  double* slot(int i) { return frame_.data() + i * slot_numbers_; }
+  double& number(int slot, int k) {
+    const int frame = k / slot_numbers_;
+    return frames_.data()[(frame * frame_slots_ + slot) * slot_numbers_ + k % slot_numbers_];
+  }
 
-  int slot_numbers_, slots_;
-  codegen::FrameNumbers frame_;
-  std::size_t size_ = 0;
+  int slot_numbers_, lanes_, slots_, frame_slots_;
+  codegen::FrameNumbers frames_;
   std::vector<std::vector<double>> expected_;  // by lane
 };
 

@@ -100,6 +100,35 @@ TEST(FrameCode, Does_the_parts_of_a_slot_where_there_is_no_wide_code) {
   EXPECT_EQ(narrow_calls, 2);
 }
 
+// A call of wide code does both frames.
+template <int wrong_frame>
+void wide_on_two(double* frames) {
+  for (int i = 0; i < 2; ++i) {
+    (i == wrong_frame ? wrong<kSquare, 2> : wide)(frames + i * kSlots * kLanes);
+  }
+}
+
+TEST(FrameCode, Does_and_compares_all_frames) {
+  FrameCode::Frame two = kFrame;
+  two.frames = 2;
+  FrameCode right(two, narrow, wide_on_two<-1>), first(two, narrow, wide_on_two<0>),
+      second(two, narrow, wide_on_two<1>);
+  for (FrameCode* code : {&right, &first, &second}) {
+    FrameNumbers frames(2 * kSlots * kLanes);
+    for (int i = 0; i < 2; ++i) {
+      std::copy(kNumbers.begin(), kNumbers.end(), frames.data() + (i * kSlots + kInput) * kLanes);
+    }
+    narrow_calls = 0;
+    code->run(frames.data());
+    EXPECT_EQ(narrow_calls, 4);
+    for (int i = 0; i < 2; ++i) {
+      const double* squares = frames.data() + (i * kSlots + kSquare) * kLanes;
+      EXPECT_EQ(std::vector<double>(squares, squares + kLanes), kSquares);
+    }
+    EXPECT_EQ(code->trust(), code == &right ? Trust::earned : Trust::none);
+  }
+}
+
 // Lanes of which the code says nothing prove nothing.
 TEST(FrameCode, Decides_when_both_parts_have_a_lane_that_counts) {
   FrameCode code(kFrame, narrow, wrong<kSquare, 7>);

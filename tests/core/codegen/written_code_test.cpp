@@ -23,15 +23,12 @@ using codegen::Program;
 using codegen::Value;
 using codegen::WrittenCode;
 
-// The code that this machine can run, on slots of four numbers, eight and sixteen.
-struct Target {
-  InstructionSet isa;
-  int slot_numbers;
-};
+// The code that this machine can run, on slots of four numbers and of eight, and on two frames.
 std::vector<Target> targets() {
   std::vector<Target> all;
-  for (const Target& t : {Target{InstructionSet::avx2, 4}, Target{InstructionSet::avx2, 8},
-                          Target{InstructionSet::avx512, 8}, Target{InstructionSet::avx512, 16}}) {
+  for (const Target& t :
+       {Target{InstructionSet::avx2, 4}, Target{InstructionSet::avx2, 8},
+        Target{InstructionSet::avx512, 8}, Target{InstructionSet::avx512, 8, 2}}) {
     if (machine_has(t.isa)) all.push_back(t);
   }
   return all;
@@ -46,18 +43,16 @@ class WrittenCodeTest : public ::testing::Test {
   // Runs code and interpreter on random inputs and compares all slots.
   static void expect_equal_runs(const Graph& graph, int inputs, int slots,
                                 std::mt19937_64& random) {
-    for (const auto& [isa, slot_numbers] : targets()) {
-      SCOPED_TRACE(std::string(name_of(isa)) + " on slots of " + std::to_string(slot_numbers));
-      const Program program =
-          codegen::allocate(graph, slots, codegen::program_registers(isa, slot_numbers));
-      const auto code = WrittenCode::place(codegen::assemble(program, isa, slot_numbers));
+    for (const Target& target : targets()) {
+      SCOPED_TRACE(target.name());
+      const Program program = target.allocate(graph, slots);
+      const auto code = WrittenCode::place(target.assemble(program));
       ASSERT_NE(code, nullptr);
-      DrawnFrame frame(graph, program, inputs, slots, slot_numbers, random);
-      const int together = native_lanes(isa) * codegen::vectors_at_once(isa, slot_numbers);
-      for (int k = 0; k < slot_numbers; k += together) {
-        code->function()(frame.numbers().data() + k);
+      DrawnFrames frames(graph, program, inputs, slots, target, random);
+      for (int k = 0; k < target.slot_numbers; k += native_lanes(target.isa)) {
+        code->function()(frames.numbers().data() + k);
       }
-      ASSERT_TRUE(frame.is_as_expected());
+      ASSERT_TRUE(frames.are_as_expected());
     }
   }
 };

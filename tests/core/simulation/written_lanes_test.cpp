@@ -32,7 +32,6 @@ class Frames {
     code_.slots.state = 7;
     code_.slots.next = 9;
     code_.slots.fine = 12;
-    code_.slot_numbers = width;
     code_.frame = numbers_.data();
     code_.context = instead;
     if (instead != nullptr) {
@@ -48,6 +47,7 @@ class Frames {
   // Writes y' over y; true if all is well for the lanes asked for.
   bool step_all(double t, Real& y, unsigned asked) {
     const auto state = [&](auto&& f) { f(&y, std::size_t{1}); };
+    lanes_->takes_other_code();
     lanes_->read(t, Real(0.0), state);
     shared_->run();
     const bool is_fine = (lanes_->fine() & asked) == asked;
