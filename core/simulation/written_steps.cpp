@@ -1,6 +1,7 @@
 #include "core/simulation/written_steps.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <chrono>
 #include <mutex>
@@ -18,9 +19,10 @@ namespace {
 constexpr long kStepsPerFreedom = 500;
 constexpr long kEvaluationsPerStep = 4;
 constexpr std::size_t kMostStructures = 64;
-// The first cache of instructions has room for so much, on all processors with AVX-512. Two packs
-// side by side double the code: beyond, it is fetched more slowly than it gains.
-constexpr std::size_t kShortCode = 32 * 1024;
+// Two packs side by side gain where code waits for itself, and lose where it is long: what is
+// fetched doubles. Beyond so many bytes of one pack they never gained, below it is measured.
+constexpr std::size_t kLongCode = 64 * 1024;
+constexpr double kLeastGain = 0.95;  // time of two side by side over that of one after the other
 
 Known known_of(double x) {
   return x == 0.0    ? Known::zero
@@ -86,11 +88,17 @@ std::unique_ptr<codegen::FrameCode> place_code(const StepTrace& trace, int const
   codegen::WrittenCode::Function narrow = nullptr, wide = nullptr;
   for (const auto& [isa, program] : programs) {
     const bool is_wide = isa == InstructionSet::avx512;
-    auto page = codegen::WrittenCode::place(codegen::assemble(
-        program, isa, {step.slot_numbers, step.frame_slots, is_wide ? step.packs : 1}));
+    const codegen::FrameLayout layout{step.slot_numbers, step.frame_slots,
+                                      is_wide ? step.packs : 1};
+    const auto code = codegen::assemble(program, isa, layout);
+    const int numbers = layout.frames * layout.slots * layout.slot_numbers;
+    // What serves: narrow code that stands beside wide is asked once.
+    auto page = isa == programs.back().first ? codegen::WrittenCode::place_well(code, numbers)
+                                             : codegen::WrittenCode::place(code);
     if (!page) return nullptr;
     (is_wide ? wide : narrow) = page->function();
     step.code_bytes = page->size();
+    step.call_s = page->call_s();
     step.pages.push_back(std::move(page));
   }
   const std::vector<codegen::SlotValue>& values = programs.front().second.constants;
@@ -106,8 +114,8 @@ struct Asked {
   const std::vector<Channel>& observed;
   int slot_numbers;
   bool rows_may_depend;
-
   int packs = 1;
+  bool is_needed = false;  // whether it pays or not
 
   bool is(const WrittenStep& w) const {
     return w.kind == kind && w.slot_numbers == slot_numbers && w.packs == packs &&
@@ -143,7 +151,9 @@ struct Structure {
   std::size_t numbers;  // of its parameters: chosen points are no structure
   long steps = 0;       // asked for so far
   bool traceable = true;
-  bool is_short = true;  // as far as is known: two packs go side by side
+  // Code for two packs, for rows that do not depend and for such that may, once it has been
+  // measured.
+  std::array<std::optional<bool>, 2> two_packs_pay;
   std::vector<std::shared_ptr<const WrittenStep>> written;
 };
 
@@ -156,24 +166,22 @@ class Library {
     std::vector<Known> known = known_in_all(cases);
     Structure& s = structure_of(m, known.size());
     s.steps += steps;
-    const bool is_wanted_short = asked.packs > 1 && !asked.rows_may_depend;
-    if (!s.traceable || (is_wanted_short && !s.is_short)) return nullptr;
-    const WrittenStep* near = nullptr;
-    for (const auto& w : s.written) {
-      if (!asked.is(*w)) continue;
-      if (serves(w->known, known)) return w;
-      near = w.get();
+    if (!s.traceable) return nullptr;
+    const bool may_write = choice == Kernels::written || s.steps >= kStepsPerFreedom * (m.nv + 1);
+    const auto get = [&](const Asked& one) -> std::shared_ptr<const WrittenStep> {
+      return find_or_write(one, m, *cases[0].parameters, known, s, may_write);
+    };
+    if (asked.packs == 1 || choice == Kernels::written || asked.is_needed) return get(asked);
+    std::optional<bool>& pays = s.two_packs_pay[asked.rows_may_depend ? 1 : 0];
+    if (!pays) {
+      Asked alone = asked;
+      alone.packs = 1;
+      const auto one = get(alone);
+      if (!one) return nullptr;
+      const auto two = one->code_bytes <= kLongCode ? get(asked) : nullptr;
+      pays = two && two->call_s < kLeastGain * 2.0 * one->call_s;
     }
-    if (choice != Kernels::written && s.steps < kStepsPerFreedom * (m.nv + 1)) return nullptr;
-    if (near) known = known_in_both(std::move(known), near->known);
-    auto written = write(asked, m, *cases[0].parameters, std::move(known), s);
-    if (written && is_wanted_short && written->code_bytes > kShortCode) {
-      s.is_short = false;
-      s.written.pop_back();
-      --report_.kernels;
-      return nullptr;
-    }
-    return written;
+    return *pays ? get(asked) : nullptr;
   }
 
   WrittenReport report() {
@@ -192,9 +200,25 @@ class Library {
       std::rotate(structures_.begin(), found, found + 1);
     } else {
       if (structures_.size() == kMostStructures) structures_.pop_back();
-      structures_.insert(structures_.begin(), {m, numbers, 0, true, true, {}});
+      structures_.insert(structures_.begin(), {m, numbers, 0, true, {}, {}});
     }
     return structures_.front();
+  }
+
+  // Null where there is none yet and none may be written.
+  std::shared_ptr<const WrittenStep> find_or_write(const Asked& asked, const Mechanism& m,
+                                                   const Parameters<double>& sizes,
+                                                   std::vector<Known> known, Structure& s,
+                                                   bool may_write) {
+    const WrittenStep* near = nullptr;
+    for (const auto& w : s.written) {
+      if (!asked.is(*w)) continue;
+      if (serves(w->known, known)) return w;
+      near = w.get();
+    }
+    if (!may_write || !s.traceable) return nullptr;
+    if (near) known = known_in_both(std::move(known), near->known);
+    return write(asked, m, sizes, std::move(known), s);
   }
 
   std::shared_ptr<const WrittenStep> write(const Asked& asked, const Mechanism& m,
@@ -261,8 +285,9 @@ std::shared_ptr<const WrittenStep> written_step(const Mechanism& m, std::span<co
                                                 bool rows_may_depend, int packs) {
   if (!why_not_written(level).empty()) return nullptr;
   const bool may = rows_may_depend || rows_depend_at_start(m, cases[0]);
-  return library().find({WrittenKind::step, observed, slot_numbers, may, packs}, m, cases, steps,
-                        level.kernels);
+  // Two packs that are under way stay together.
+  return library().find({WrittenKind::step, observed, slot_numbers, may, packs, rows_may_depend}, m,
+                        cases, steps, level.kernels);
 }
 
 std::shared_ptr<const WrittenStep> written_trial(const Mechanism& m,

@@ -31,7 +31,8 @@ struct WrittenStep {
   std::vector<Known> known;
   std::vector<codegen::SlotValue> constants;
   int frame_slots = 0;         // of one frame
-  std::size_t code_bytes = 0;  // of the widest
+  std::size_t code_bytes = 0;  // of the widest code
+  double call_s = 0.0;         // it takes, here and now
   std::vector<std::unique_ptr<codegen::WrittenCode>> pages;
   std::unique_ptr<codegen::FrameCode> code;
   std::unique_ptr<codegen::FrameCode> inside;  // of trials: instants inside steps
@@ -54,10 +55,10 @@ WrittenReport written_report();
 std::string why_not_written(const SimdLevel& level);
 
 // The step for a pack, or for two (those of the last cases), that writes these channels, on frames
-// of `slot_numbers` a slot, or null: its structure cannot be traced, its code is too long for two
-// packs, this machine has no AVX2 or refuses executable memory, or what is left to run is too
-// little to gain by it. Right for cut rows that depend on each other if they do at the start of the
-// first case, or rows_may_depend says so. May be called by several threads.
+// of `slot_numbers` a slot, or null: its structure cannot be traced, two packs gain nothing side by
+// side, this machine has no AVX2 or refuses executable memory, or what is left to run is too little
+// to gain by it. Right for cut rows that depend on each other if they do at the start of the first
+// case, or rows_may_depend says so, whatever it gains. May be called by several threads.
 std::shared_ptr<const WrittenStep> written_step(const Mechanism& m, std::span<const LaneCase> cases,
                                                 const std::vector<Channel>& observed, long steps,
                                                 const SimdLevel& level, int slot_numbers,

@@ -97,6 +97,18 @@ TEST_F(WrittenCodeTest, Leaves_its_inputs_and_writes_what_is_known_already) {
   expect_equal_runs(graph, 1, 4, random);
 }
 
+// Five places where times differ, two where they do not; what is kept is one of them.
+TEST_F(WrittenCodeTest, Is_placed_where_it_runs_and_computes_the_same) {
+  DrawnGraph drawn(17);
+  const Target target{InstructionSet::avx2, 4};
+  const Program program = target.allocate(drawn.graph, drawn.slots);
+  const auto code = WrittenCode::place_well(target.assemble(program), program.slots * 4);
+  ASSERT_NE(code, nullptr);
+  DrawnFrames frames(drawn.graph, program, drawn.inputs, drawn.slots, target, drawn.random);
+  code->function()(frames.numbers().data());
+  EXPECT_TRUE(frames.are_as_expected());
+}
+
 TEST(Memory, That_may_not_be_executed_gives_no_code) {
   const std::vector<std::uint8_t> code = {0xc3};
   int asked = -1;
