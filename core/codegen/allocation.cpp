@@ -17,7 +17,7 @@ bool commutes(Op op) {
 
 class Allocator {
  public:
-  Allocator(const Graph& graph, int slots, int registers)
+  Allocator(const Graph& graph, int slots, int registers, Order order)
       : nodes_(graph.nodes()),
         outputs_(graph.outputs()),
         place_(nodes_.size()),
@@ -27,6 +27,7 @@ class Allocator {
       if (n.op == Op::negate) n = {Op::bit_xor, n.a, graph.sign()};
     }
     find_live();
+    if (order == Order::depth_first) order_depth_first();
     list_uses();
     give_constants_slots();
   }
@@ -79,6 +80,55 @@ class Allocator {
         known_.push_back(static_cast<Value>(i));
       }
     }
+  }
+
+  // Registers that a value needs if nothing else is kept, were it a tree (Sethi and Ullman 1970).
+  std::vector<int> registers_needed() const {
+    std::vector<int> needed(nodes_.size(), 0);
+    for (const Value v : order_) {
+      int most = 0, as_many = 0;
+      for_operands(node(v), [&](Value x) {
+        const int n = needed[static_cast<std::size_t>(x)];
+        as_many = n > most ? 1 : n == most ? as_many + 1 : as_many;
+        most = std::max(most, n);
+      });
+      needed[static_cast<std::size_t>(v)] = std::max(1, most + std::max(0, as_many - 1));
+    }
+    return needed;
+  }
+
+  // Outputs in the order in which they were made, each after what it still needs, the operand first
+  // that needs most registers.
+  void order_depth_first() {
+    const std::vector<int> needed = registers_needed();
+    std::vector<char> is_placed(nodes_.size(), 0);
+    std::vector<Value> roots, order, open;
+    for (const Output& o : outputs_) roots.push_back(o.value);
+    std::ranges::sort(roots);
+    const auto is_open = [&](Value v) {
+      return is_placed[static_cast<std::size_t>(v)] == 0 && operand_count(node(v).op) > 0;
+    };
+    for (const Value root : roots) {
+      if (is_open(root)) open.push_back(root);
+      while (!open.empty()) {
+        const Value v = open.back();
+        Value next = -1;
+        for_operands(node(v), [&](Value x) {
+          if (is_open(x) && (next < 0 || needed[static_cast<std::size_t>(x)] >
+                                             needed[static_cast<std::size_t>(next)])) {
+            next = x;
+          }
+        });
+        if (next >= 0) {
+          open.push_back(next);
+          continue;
+        }
+        open.pop_back();
+        is_placed[static_cast<std::size_t>(v)] = 1;
+        order.push_back(v);
+      }
+    }
+    order_ = std::move(order);
   }
 
   // Positions of all uses, value by value.
@@ -344,8 +394,8 @@ class Allocator {
 
 }  // namespace
 
-Program allocate(const Graph& graph, int slots, int registers) {
-  return Allocator(graph, slots, registers).run();
+Program allocate(const Graph& graph, int slots, int registers, Order order) {
+  return Allocator(graph, slots, registers, order).run();
 }
 
 }  // namespace linkstudy::codegen

@@ -1,8 +1,7 @@
 // From a graph to instructions on a number of vector registers and a frame in memory: what the
-// graph needs, in the order in which it was made; each value in a register while it is used soon,
-// else in a slot of the frame. When registers run out, the value whose next use is farthest gives
-// way (Belady 1966), and is stored once at most. An operand that would not stay is read from
-// memory.
+// graph needs, in one of two orders; each value in a register while it is used soon, else in a slot
+// of the frame. When registers run out, the value whose next use is farthest gives way (Belady
+// 1966), and is stored once at most. An operand that would not stay is read from memory.
 #pragma once
 
 #include <vector>
@@ -49,8 +48,13 @@ struct Program {
   int stores = 0;  // of values that had to leave
 };
 
-// `slots`: of inputs and outputs. Outputs overwrite no input. Programs of a graph for any number of
-// registers have the same constants in the same slots.
-Program allocate(const Graph& graph, int slots, int registers);
+// As the graph was made: what does not depend on each other stands near, and short code waits less.
+// Depth first, what needs most registers before the rest (Sethi and Ullman 1970): of long code less
+// has to leave the registers.
+enum class Order { as_made, depth_first };
+
+// `slots`: of inputs and outputs. Outputs overwrite no input. Programs of a graph, for any number
+// of registers and in any order, have the same constants in the same slots.
+Program allocate(const Graph& graph, int slots, int registers, Order order = Order::as_made);
 
 }  // namespace linkstudy::codegen
