@@ -343,6 +343,35 @@ TEST(Lanes, A_lane_that_diverges_ends_as_it_would_alone_and_leaves_the_others) {
   }
 }
 
+// A pack that has ended goes along with the one beside it.
+TEST(Lanes, Packs_side_by_side_end_each_for_itself) {
+  if (!machine_has(InstructionSet::avx512)) GTEST_SKIP() << "no AVX-512 here";
+  Linkage linkage = rsrrp();
+  linkage.closures[0].model = ClosureModel::sde;
+  constexpr long steps = 1500;
+  const SimdLevel level{InstructionSet::avx512, 8, Kernels::written};
+  ASSERT_EQ(packs_beside(level), 2);
+  for (const int lost : {0, 1}) {  // which pack
+    const auto make = [&] {
+      std::vector<Case> cases = make_cases(linkage, 16, steps);
+      for (int i = 8 * lost; i < 8 * (lost + 1); ++i) {
+        Case& c = cases[static_cast<std::size_t>(i)];
+        for (auto& s : c.model.parameters.springs) s.stiffness = 1e9;
+        c.model.start.q[PositionIndex(0)] += 1e-6 * (1 + i);
+      }
+      return cases;
+    };
+    std::vector<Case> packed = make(), alone = make();
+    run_cases(packed, short_run(steps), level);
+    run_cases(alone, short_run(steps), {InstructionSet::avx2, 1});
+    for (int i = 0; i < 16; ++i) {
+      const auto n = static_cast<std::size_t>(i);
+      EXPECT_TRUE(same_run(packed[n], alone[n])) << "pack " << lost << " lost, case " << i;
+      EXPECT_EQ(packed[n].outcome.cause == Cause::ok, i / 8 != lost);
+    }
+  }
+}
+
 TEST(Lanes, A_decaying_motion_ends_among_normal_numbers) {
   Linkage linkage = pendulum();
   linkage.gravity.setZero();
