@@ -20,7 +20,7 @@ struct Sampling {
   long end = 0;
   long stride = 1;
   bool hits(long step) const {
-    return step >= begin && step <= end && (step - begin) % stride == 0;
+    return step >= begin && step <= end && (stride == 1 || (step - begin) % stride == 0);
   }
   long count() const { return end < begin ? 0 : (end - begin) / stride + 1; }
   long last() const { return begin + (count() - 1) * stride; }
@@ -37,7 +37,7 @@ struct WindowEnds {
 [[gnu::always_inline]] inline double time_weight(const Sampling& sampling, const WindowEnds& ends,
                                                  long step) {
   const bool is_first = step == sampling.begin;
-  const bool is_last = step == sampling.last();
+  const bool is_last = step > sampling.end - sampling.stride;
   if (is_first && is_last && ends.before + ends.after == 0.0) return 1.0;
   return (is_first ? ends.before : 0.5) + (is_last ? ends.after : 0.5);
 }
