@@ -27,14 +27,17 @@ constexpr int kPairs = 11;
 struct Found {
   double general_ns = std::numeric_limits<double>::infinity(), written_ns = general_ns;
   double ratio = 0.0;
+  double to_write_ms = 0.0;
   int lanes = 0;
 };
 
 Found measure(const Model& model, double step, const SimdLevel& level, int packs) {
   const long steps = std::max(200L, 12000L / (1 + model.mechanism.nv));
   EngineRun general(model, level, step, steps, false);
+  const double before = written_report().seconds;
   EngineRun written(model, level, step, steps, true, packs);
   Found found;
+  found.to_write_ms = 1e3 * (written_report().seconds - before);
   found.lanes = written.lanes();
   if (!written.is_written()) return found;
   std::vector<double> ratios;
@@ -65,8 +68,8 @@ int run(double least_wanted) {
   if (!why_not_written(level).empty()) return 77;
   fmt::print("ns per right-hand side and case, one thread, {}, g++ {}\n", name_of(level.isa),
              __VERSION__);
-  fmt::print("{:<26}{:<9}{:>6}{:>10}{:>10}{:>7}{:>8}\n", "mechanism", "closures", "lanes",
-             "general", "written", "lanes", "ratio");
+  fmt::print("{:<26}{:<9}{:>6}{:>10}{:>10}{:>7}{:>8}{:>14}\n", "mechanism", "closures", "lanes",
+             "general", "written", "lanes", "ratio", "to write, ms");
   double least = std::numeric_limits<double>::infinity();
   for (const std::string& path : shipped_models()) {
     for (const ClosureModel closures : {ClosureModel::cut, ClosureModel::sde}) {
@@ -77,10 +80,10 @@ int run(double least_wanted) {
       const Preparation p = prepare(input.linkage, input.options);
       const Found f = measure(p.model, std::min(input.options.step, kLongestStep), level);
       least = std::min(least, f.ratio);
-      fmt::print("{:<26}{:<9}{:>6}{:>10.1f}{:>10.1f}{:>7}{:>8.2f}\n",
+      fmt::print("{:<26}{:<9}{:>6}{:>10.1f}{:>10.1f}{:>7}{:>8.2f}{:>14.1f}\n",
                  std::filesystem::path(path).stem().string(),
                  changes ? std::string(name_of(closures)) : "loose", level.lanes, f.general_ns,
-                 f.written_ns, f.lanes, f.ratio);
+                 f.written_ns, f.lanes, f.ratio, f.to_write_ms);
     }
   }
   fmt::print("least ratio {:.2f}\n", least);
