@@ -136,9 +136,8 @@ class WrittenLanes {
     double* at = place(slot);
     for_numbers([&at](const Real* x, std::size_t n) {
       double* const end = at + n * width;
-      if (static_cast<const void*>(x) != at) {
-        for (; at != end; at += width, ++x) put_at(at, *x);
-      }
+      if (static_cast<const void*>(x) == at) at = end;
+      for (; at != end; at += width, ++x) put_at(at, *x);
       at = end;
     });
   }

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Prints the speed of the step loop as ratios to the trace formulas, and of the written steps of every
-# shipped mechanism as ratios to its general loop, with compiler, flags and CPU, and beside Simbody
-# if that is installed (Debian: libsimbody-dev; nothing else wants it).
+# Prints the speed of the step loop as ratios to the trace formulas, and of the written steps of
+# every shipped mechanism as ratios to its general loop, with compiler, flags and CPU, and beside
+# Simbody if that is installed (Debian: libsimbody-dev; nothing else wants it).
 # usage: tests/bench/run.sh [BUILD_DIRECTORY]      takes about two minutes on a built tree
 set -euo pipefail
 top=$(cd "$(dirname "$0")/../.." && pwd)
