@@ -25,7 +25,7 @@ inline void add_contact_wrench(const ClearanceStructure& c, const ContactGeometr
   const Vec3<Real> force = sign * (madd(Real(0.0) - s.normal, k.n, (Real(0.0) - s.friction) * k.t));
   const Vec3<Real> couple = (sign * (Real(0.0) - s.friction) * k.arm) * axis;
   x.contact_force = x.contact_force + force;
-  x.contact_moment = x.contact_moment + cross(k.point - x.p1, force) + couple;
+  x.contact_moment = x.contact_moment + cross(k.point - x.p_WF, force) + couple;
   if (c.points == ContactPoints::one) return;
   // The journal's arm is longer by the depth, whichever body carries it.
   const Vec3<Real> more = ((Real(0.0) - s.friction) * k.depth) * axis;

@@ -63,7 +63,7 @@ inline Real distance_from_axis(const Mechanism& m, const Parameters<Real>& p,
 template <class Real>
 inline Real closure_lever(const Mechanism& m, const Parameters<Real>& p, const Workspace<Real>& w,
                           ClosureIndex closure) {
-  const Vec3<Real>& point = w.closures[closure].p2;
+  const Vec3<Real>& point = w.closures[closure].p_WS;
   Real square(0.0), extent(0.0);
   int count = 0;
   for_relative_velocities(m, m.closures[closure], [&](VelocityIndex k) {
@@ -108,7 +108,7 @@ inline Real scaled_bound(const Mechanism& m, const Parameters<Real>& p, const Wo
   if (measures_turn(row.kind)) return Real(slides ? 0.0 : 1.0);
   const Real inverse = Real(1.0) / w.row_scale[r];
   if (slides) return inverse;
-  const Vec3<Real>& point = w.closures[row.closure].p2;
+  const Vec3<Real>& point = w.closures[row.closure].p_WS;
   return max(distance_from_axis(m, p, w, k, point) * inverse, Real(kLeastLever));
 }
 

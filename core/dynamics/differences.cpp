@@ -32,8 +32,8 @@ Extent compute_extent(const Model& model, const State<double>& s) {
     add(w.bodies[b].p_WB + w.bodies[b].R_WB * ((1.0 / n.mass) * n.moment));
   }
   for (const ClosureState<double>& c : w.closures) {
-    add(c.p1);
-    add(c.p2);
+    add(c.p_WF);
+    add(c.p_WS);
   }
   for (const PointSpringIndex i : indices_of(w.point_springs)) {
     const PointSpringStructure& spring = m.point_springs[i];

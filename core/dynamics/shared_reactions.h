@@ -39,7 +39,7 @@ inline void for_loop_rows(const Mechanism& m, F&& f) {
 // Where the reaction of a joint is taken.
 template <class Real>
 inline const Vec3<Real>& point_of(const Workspace<Real>& w, const LoopJoint& joint) {
-  return joint.body.exists() ? w.bodies[joint.body].p_WB : w.closures[joint.closure].p1;
+  return joint.body.exists() ? w.bodies[joint.body].p_WB : w.closures[joint.closure].p_WF;
 }
 
 // l of the loops of one joint; 0 where all their joints are at one point.
@@ -123,11 +123,11 @@ inline Wrench<Real> effect_on(const Mechanism& m, const Workspace<Real>& w, cons
                               const RowState<Real>& state, const LoopJoint& joint) {
   const ClosureStructure& c = m.closures[row.closure];
   const ClosureState<Real>& x = w.closures[row.closure];
-  const Vec3<Real>& point_1 = acts_at_both_points(row.kind) ? x.p1 : x.p2;
+  const Vec3<Real>& point_1 = acts_at_both_points(row.kind) ? x.p_WF : x.p_WS;
   Wrench<Real> effect{zero3<Real>(), zero3<Real>()};
   if (joint.closure.exists()) {
     if (joint.closure != row.closure) return effect;
-    add_force(effect, point_1 - x.p1, state.force);
+    add_force(effect, point_1 - x.p_WF, state.force);
     effect.moment = effect.moment + state.couple;
     return effect;
   }
@@ -138,7 +138,7 @@ inline Wrench<Real> effect_on(const Mechanism& m, const Workspace<Real>& w, cons
     subtract_force(effect, point_1 - origin, state.force);
     effect.moment = effect.moment - state.couple;
   } else {
-    add_force(effect, x.p2 - origin, state.force);
+    add_force(effect, x.p_WS - origin, state.force);
     effect.moment = effect.moment + state.couple;
   }
   return effect;

@@ -29,7 +29,7 @@ constexpr double kRubbing = 1e-3;  // of the steps of velocities
 constexpr double kOfDepth = 0.02;
 
 bool is_shut(const ClosureState<double>& x) {
-  const Vec3<double> gap = x.p2 - x.p1;
+  const Vec3<double> gap = x.p_WS - x.p_WF;
   return dot(gap, gap) <= kClosedTolerance * kClosedTolerance;
 }
 

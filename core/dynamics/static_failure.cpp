@@ -95,7 +95,7 @@ std::string hint_at_sines(const Model& model, const State<double>& s, Workspace<
     const ClosureStructure& c = m.closures[i];
     if (c.model != ClosureModel::sde || !c.needs_frames) continue;
     const ClosureState<double>& x = w.closures[i];
-    const Vec3<double> phi = rotation_vector(x.r1, x.r2).phi;
+    const Vec3<double> phi = rotation_vector(x.R_WF, x.R_WS).phi;
     const double turn = std::sqrt(dot(phi, phi)) * 180.0 / std::numbers::pi;
     for (const RowIndex r : rows_of(c)) {
       const double stiffness = model.parameters.springs[r].stiffness;

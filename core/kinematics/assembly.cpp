@@ -81,8 +81,8 @@ std::vector<AxisPair> aligned_axes(const Model& model, Workspace<double>& w, Clo
     return AxisPair{{a.x, a.y, a.z}, {b.x, b.y, b.z}};
   };
   std::vector<AxisPair> pairs;
-  if (x) pairs.push_back(pair(pose.r1.x, pose.r2.x));
-  if (y) pairs.push_back(pair(pose.r1.y, pose.r2.y));
+  if (x) pairs.push_back(pair(pose.R_WF.x, pose.R_WS.x));
+  if (y) pairs.push_back(pair(pose.R_WF.y, pose.R_WS.y));
   return pairs;
 }
 

@@ -24,13 +24,13 @@ inline void add_row_rates(const Mechanism& m, const Parameters<Real>& p, const W
                           ClosureIndex closure, const Row& r, const RowState<Real>& row,
                           Velocities<Real> j) {
   const ClosureState<Real>& x = w.closures[closure];
-  const Vec3<Real>& point_1 = acts_at_both_points(r.kind) ? x.p1 : x.p2;
+  const Vec3<Real>& point_1 = acts_at_both_points(r.kind) ? x.p_WF : x.p_WS;
   const auto rate = [&](VelocityIndex k, const Vec3<Real>& point) {
     const Velocity& v = m.velocities[k];
     return row_rate(v, p.pitch, w.axes[k], w.bodies[v.body].p_WB, point, row);
   };
   for (const VelocityIndex k : path(m, m.closures[closure].last_1)) j[k] = j[k] - rate(k, point_1);
-  for (const VelocityIndex k : path(m, m.closures[closure].last_2)) j[k] = j[k] + rate(k, x.p2);
+  for (const VelocityIndex k : path(m, m.closures[closure].last_2)) j[k] = j[k] + rate(k, x.p_WS);
 }
 
 // Velocity of a point by a velocity of its path, ground axes.
@@ -51,13 +51,13 @@ inline void add_point_rates(const Mechanism& m, const Parameters<Real>& p, const
                             Velocities<Real> z_row) {
   const ClosureState<Real>& x = w.closures[closure];
   for (const VelocityIndex k : path(m, m.closures[closure].last_1)) {
-    const Vec3<Real> e = point_rate(m, p, w, k, x.p1);
+    const Vec3<Real> e = point_rate(m, p, w, k, x.p_WF);
     x_row[k] = x_row[k] - e.x;
     y_row[k] = y_row[k] - e.y;
     z_row[k] = z_row[k] - e.z;
   }
   for (const VelocityIndex k : path(m, m.closures[closure].last_2)) {
-    const Vec3<Real> e = point_rate(m, p, w, k, x.p2);
+    const Vec3<Real> e = point_rate(m, p, w, k, x.p_WS);
     x_row[k] = x_row[k] + e.x;
     y_row[k] = y_row[k] + e.y;
     z_row[k] = z_row[k] + e.z;

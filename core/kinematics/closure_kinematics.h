@@ -1,9 +1,9 @@
 // Directions of a closure: displacement d, its rate, its second derivative for qdd = 0, and its
 // unit wrench ([Urbas16] eqs. (6)-(14), (18.3)). A closure force of size f puts +f times the unit
-// wrench on the first body and -f times it on the second. gap = p2 - p1.
+// wrench on the first body and -f times it on the second. gap = p_WS - p_WF.
 //
-//   ground axis e     d = e.gap    force e, at p1 on the first body and at p2 on the second
-//   axis e of {1,e}   d = e.gap    force e at p2 on both (e turns with body 1)
+//   ground axis e     d = e.gap    force e, at F on the first body and at S on the second
+//   axis e of {1,e}   d = e.gap    force e at S on both (e turns with body 1)
 //   line of centres   d = |gap| - length of a rod, else 0; force u along the line, zero where the
 //                     points coincide
 //   rotation          d = s a.b    couple s b x a
@@ -20,7 +20,7 @@ inline Real component(const Vec3<Real>& a, int i) {
   return i == 0 ? a.x : i == 1 ? a.y : a.z;
 }
 
-// True where the force acts at p1 on the first body (and at p2 on the second), not at p2 on both.
+// True where the force acts at F on the first body (and at S on the second), not at S on both.
 inline bool acts_at_both_points(RowKind kind) {
   return kind == RowKind::translation_ground || kind == RowKind::spring_ground;
 }
@@ -31,19 +31,19 @@ inline void update_closure_pose(const Mechanism& m, const ClosureStructure& c,
                                 ClosureState<Real>& x) {
   const BodyState<Real>& b1 = bodies[c.first];
   const BodyState<Real>& b2 = bodies[c.second];
-  x.arm_1 = rotate(b1.R_WB, n.point_1, c.point_1);
-  x.arm_2 = rotate(b2.R_WB, n.point_2, c.point_2);
-  x.p1 = b1.p_WB + x.arm_1;
-  x.p2 = b2.p_WB + x.arm_2;
-  x.v1 = b1.v_WB;
-  x.v2 = b2.v_WB;
+  x.p_BF_W = rotate(b1.R_WB, n.point_1, c.point_1);
+  x.p_BS_W = rotate(b2.R_WB, n.point_2, c.point_2);
+  x.p_WF = b1.p_WB + x.p_BF_W;
+  x.p_WS = b2.p_WB + x.p_BS_W;
+  x.v_WF = b1.v_WB;
+  x.v_WS = b2.v_WB;
   const bool turns_1 = m.bodies[c.first].rotates;
   const bool turns_2 = m.bodies[c.second].rotates;
-  if (turns_1) x.v1 = x.v1 + cross(b1.w_WB, x.arm_1);
-  if (turns_2) x.v2 = x.v2 + cross(b2.w_WB, x.arm_2);
+  if (turns_1) x.v_WF = x.v_WF + cross(b1.w_WB, x.p_BF_W);
+  if (turns_2) x.v_WS = x.v_WS + cross(b2.w_WB, x.p_BS_W);
   if (!c.needs_frames) return;
-  x.r1 = b1.R_WB * n.frame_1;
-  x.r2 = b2.R_WB * n.frame_2;
+  x.R_WF = b1.R_WB * n.frame_1;
+  x.R_WS = b2.R_WB * n.frame_2;
 }
 
 // Acceleration for qdd = 0, less gravity, of a point `arm` from the origin that moves with v.
@@ -59,8 +59,8 @@ inline Vec3<Real> point_acceleration(const Body& body, const BodyState<Real>& b,
 template <class Real>
 inline Vec3<Real> gap_acceleration(const Mechanism& m, const ClosureStructure& c,
                                    const BodyStates<Real>& bodies, const ClosureState<Real>& x) {
-  return point_acceleration(m.bodies[c.second], bodies[c.second], x.arm_2, x.v2) -
-         point_acceleration(m.bodies[c.first], bodies[c.first], x.arm_1, x.v1);
+  return point_acceleration(m.bodies[c.second], bodies[c.second], x.p_BS_W, x.v_WS) -
+         point_acceleration(m.bodies[c.first], bodies[c.first], x.p_BF_W, x.v_WF);
 }
 
 // Gap, its rate and acceleration seen from a frame that turns with the first body.
@@ -72,9 +72,9 @@ struct TurningGap {
 template <class Real>
 inline TurningGap<Real> gap_seen_from_first(const BodyState<Real>& b1, const ClosureState<Real>& x,
                                             const Vec3<Real>& acceleration) {
-  const Vec3<Real> gap = x.p2 - x.p1;
+  const Vec3<Real> gap = x.p_WS - x.p_WF;
   const Vec3<Real> carried = cross(b1.w_WB, gap);
-  const Vec3<Real> rate = x.v2 - x.v1 - carried;
+  const Vec3<Real> rate = x.v_WS - x.v_WF - carried;
   return {gap, rate,
           acceleration - cross(b1.alpha_WB, gap) - cross(b1.w_WB, madd(Real(2.0), rate, carried))};
 }
@@ -82,12 +82,12 @@ inline TurningGap<Real> gap_seen_from_first(const BodyState<Real>& b1, const Clo
 template <class Real>
 inline void update_line_row(const ClosureState<Real>& x, Real rod, const Vec3<Real>& acceleration,
                             RowState<Real>& row) {
-  const Vec3<Real> gap = x.p2 - x.p1;
+  const Vec3<Real> gap = x.p_WS - x.p_WF;
   const Real length = sqrt(dot(gap, gap));
   const auto coincident = length < Real(1e-150);
   const Real one(1.0), none(0.0);
   const Real inverse = select(coincident, none, one / select(coincident, one, length));
-  const Vec3<Real> speed = x.v2 - x.v1;
+  const Vec3<Real> speed = x.v_WS - x.v_WF;
   row.force = inverse * gap;
   row.d = length - rod;
   row.rate = dot(row.force, speed);
@@ -100,8 +100,8 @@ template <class Real>
 inline void update_rotation_row(const Row& r, const ClosureState<Real>& x,
                                 const BodyState<Real>& b1, const BodyState<Real>& b2,
                                 RowState<Real>& row) {
-  const Vec3<Real>& a = column(x.r1, r.axis);
-  const Vec3<Real>& b = column(x.r2, r.other);
+  const Vec3<Real>& a = column(x.R_WF, r.axis);
+  const Vec3<Real>& b = column(x.R_WS, r.other);
   const Real sign(r.sign);
   const Vec3<Real> omega = b2.w_WB - b1.w_WB;
   const Vec3<Real> rate = cross(cross(b2.w_WB, b), a) + cross(b, cross(b1.w_WB, a));
@@ -115,9 +115,9 @@ template <class Real>
 inline void update_rotation_vector_row(const Row& r, const ClosureState<Real>& x,
                                        const BodyState<Real>& b1, const BodyState<Real>& b2,
                                        RowState<Real>& row) {
-  const RotationVector<Real> turn = rotation_vector(x.r1, x.r2);
+  const RotationVector<Real> turn = rotation_vector(x.R_WF, x.R_WS);
   const Mat3<Real> e = identity3<Real>();
-  row.couple = x.r1 * rotation_vector_gradient(turn, column(e, r.axis));
+  row.couple = x.R_WF * rotation_vector_gradient(turn, column(e, r.axis));
   row.d = component(turn.phi, r.axis);
   row.rate = dot(row.couple, b2.w_WB - b1.w_WB);
   row.bias = Real(0.0);  // never a constraint
@@ -130,20 +130,20 @@ inline void update_row(const Row& r, const ClosureState<Real>& x, const ClosureP
                        const Vec3<Real>& acceleration, RowState<Real>& row) {
   switch (r.kind) {
     case RowKind::translation_ground:
-      row.d = component(x.p2, r.axis) - component(x.p1, r.axis);
-      row.rate = component(x.v2, r.axis) - component(x.v1, r.axis);
+      row.d = component(x.p_WS, r.axis) - component(x.p_WF, r.axis);
+      row.rate = component(x.v_WS, r.axis) - component(x.v_WF, r.axis);
       row.bias = component(acceleration, r.axis);
       return;
     case RowKind::spring_ground:
       row.force = column(n.springs, r.axis);
-      row.d = dot(row.force, x.p2 - x.p1);
-      row.rate = dot(row.force, x.v2 - x.v1);
+      row.d = dot(row.force, x.p_WS - x.p_WF);
+      row.rate = dot(row.force, x.v_WS - x.v_WF);
       row.bias = dot(row.force, acceleration);
       return;
     case RowKind::translation_first:
     case RowKind::spring_first: {
       const bool spring = r.kind == RowKind::spring_first;
-      row.force = spring ? x.r1 * column(n.springs, r.axis) : column(x.r1, r.axis);
+      row.force = spring ? x.R_WF * column(n.springs, r.axis) : column(x.R_WF, r.axis);
       const TurningGap<Real> seen = gap_seen_from_first(b1, x, acceleration);
       row.d = dot(row.force, seen.gap);
       row.rate = dot(row.force, seen.rate);
@@ -166,12 +166,12 @@ inline void update_row(const Row& r, const ClosureState<Real>& x, const ClosureP
 template <class Real>
 inline void update_point_rows(const ClosureState<Real>& x, const Vec3<Real>& acceleration,
                               RowState<Real>* rows) {
-  rows[0].d = x.p2.x - x.p1.x;
-  rows[1].d = x.p2.y - x.p1.y;
-  rows[2].d = x.p2.z - x.p1.z;
-  rows[0].rate = x.v2.x - x.v1.x;
-  rows[1].rate = x.v2.y - x.v1.y;
-  rows[2].rate = x.v2.z - x.v1.z;
+  rows[0].d = x.p_WS.x - x.p_WF.x;
+  rows[1].d = x.p_WS.y - x.p_WF.y;
+  rows[2].d = x.p_WS.z - x.p_WF.z;
+  rows[0].rate = x.v_WS.x - x.v_WF.x;
+  rows[1].rate = x.v_WS.y - x.v_WF.y;
+  rows[2].rate = x.v_WS.z - x.v_WF.z;
   rows[0].bias = acceleration.x;
   rows[1].bias = acceleration.y;
   rows[2].bias = acceleration.z;
@@ -259,8 +259,8 @@ template <class Real>
 inline void subtract_contact_forces(const ClosureStructure& c, const ClosureState<Real>& x,
                                     const BodyStates<Real>& bodies, Wrench<Real>& first,
                                     Wrench<Real>& second) {
-  subtract_force(first, x.arm_1, x.contact_force);
-  add_force(second, x.p1 - bodies[c.second].p_WB, x.contact_force);
+  subtract_force(first, x.p_BF_W, x.contact_force);
+  add_force(second, x.p_WF - bodies[c.second].p_WB, x.contact_force);
   first.moment = first.moment - x.contact_moment;
   second.moment = second.moment + (x.contact_moment - x.contact_surplus);
 }
@@ -271,11 +271,11 @@ template <class Real>
 inline void subtract_closure_forces(const ClosureStructure& c, const ClosureState<Real>& x,
                                     const BodyStates<Real>& bodies, Wrench<Real>& first,
                                     Wrench<Real>& second) {
-  subtract_force(first, x.arm_1, x.force_points);
-  add_force(second, x.arm_2, x.force_points);
+  subtract_force(first, x.p_BF_W, x.force_points);
+  add_force(second, x.p_BS_W, x.force_points);
   if (!c.needs_frames && !c.has_line) return;
-  subtract_force(first, x.p2 - bodies[c.first].p_WB, x.force_second);
-  add_force(second, x.arm_2, x.force_second);
+  subtract_force(first, x.p_WS - bodies[c.first].p_WB, x.force_second);
+  add_force(second, x.p_BS_W, x.force_second);
   first.moment = first.moment - x.couple;
   second.moment = second.moment + x.couple;
 }

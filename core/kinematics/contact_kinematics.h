@@ -33,9 +33,9 @@ inline JournalInBearing<Real> journal_in_bearing(const ClearanceStructure& c,
                                                  const BodyState<Real>& first,
                                                  const BodyState<Real>& second) {
   if (c.bearing_first) {
-    return {x.r1.x, x.r2.x, x.p1, x.p2, x.v1, x.v2, first.w_WB, second.w_WB};
+    return {x.R_WF.x, x.R_WS.x, x.p_WF, x.p_WS, x.v_WF, x.v_WS, first.w_WB, second.w_WB};
   }
-  return {x.r2.x, x.r1.x, x.p2, x.p1, x.v2, x.v1, second.w_WB, first.w_WB};
+  return {x.R_WS.x, x.R_WF.x, x.p_WS, x.p_WF, x.v_WS, x.v_WF, second.w_WB, first.w_WB};
 }
 
 template <class Real>

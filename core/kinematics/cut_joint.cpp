@@ -72,11 +72,11 @@ CutJoint cut_joint_of(const Mechanism& m, ClosureIndex closure) {
 }
 
 ClosureFrame first_frame(const ClosureState<double>& x) {
-  return {to_eigen(x.r1), to_eigen(x.p1)};
+  return {to_eigen(x.R_WF), to_eigen(x.p_WF)};
 }
 
 ClosureFrame second_frame(const ClosureState<double>& x) {
-  return {to_eigen(x.r2), to_eigen(x.p2)};
+  return {to_eigen(x.R_WS), to_eigen(x.p_WS)};
 }
 
 VectorXd cut_joint_position(const CutJoint& joint, const ClosureFrame& first,

@@ -24,7 +24,7 @@ void spread(const Mechanism& m, int pose, std::vector<double>& q) {
 double farthest_of(const Workspace<double>& w) {
   double farthest = 0.0;
   for (const ClosureState<double>& c : w.closures) {
-    farthest = std::max({farthest, sqrt(dot(c.p1, c.p1)), sqrt(dot(c.p2, c.p2))});
+    farthest = std::max({farthest, sqrt(dot(c.p_WF, c.p_WF)), sqrt(dot(c.p_WS, c.p_WS))});
   }
   return farthest;
 }

@@ -26,7 +26,7 @@ MatrixXd twist_columns(const Model& closed, const ClosureScale& scale, const Wor
     const RowState<double>& state = w.cut_rows[r];
     const ClosureStructure& c = m.closures[row.closure];
     const ClosureState<double>& x = w.closures[row.closure];
-    const Vec3<double>& point_1 = acts_at_both_points(row.kind) ? x.p1 : x.p2;
+    const Vec3<double>& point_1 = acts_at_both_points(row.kind) ? x.p_WF : x.p_WS;
     for (int k = 0; k < 6; ++k) {
       const bool turns = k < 3;
       const Velocity v{body, turns ? VelocityKind::rotation : VelocityKind::translation, {}};
@@ -34,7 +34,7 @@ MatrixXd twist_columns(const Model& closed, const ClosureScale& scale, const Wor
         return row_rate<double>(v, nullptr, axes[k % 3], origin, point, state);
       };
       const double first = carries(m, body, c.first) ? rate(point_1) : 0.0;
-      const double second = carries(m, body, c.second) ? rate(x.p2) : 0.0;
+      const double second = carries(m, body, c.second) ? rate(x.p_WS) : 0.0;
       t(r.value(), k) = scale.row[r.value()] * (second - first) * (turns ? 1.0 : scale.extent);
     }
   }

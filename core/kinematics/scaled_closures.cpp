@@ -18,7 +18,7 @@ double find_extent(const Model& model, const Workspace<double>& w) {
     box.extend(origin);
     box.extend(origin + to_eigen(w.bodies[b].inertia.h) / model.parameters.bodies[b].mass);
   }
-  for (const auto& closure : w.closures) box.extend(to_eigen(closure.p2));
+  for (const auto& closure : w.closures) box.extend(to_eigen(closure.p_WS));
   const double diagonal = box.isEmpty() ? 0.0 : box.diagonal().norm();
   return diagonal > 0.0 ? diagonal : 1.0;
 }

@@ -73,10 +73,10 @@ struct Body {
 };
 
 // A scalar direction of a closure: its displacement d, rate, and the wrench that works on it.
-//   translation_ground  d = e . (p2 - p1), e a ground axis
-//   translation_first   d = e . (p2 - p1), e an axis of {1,e}
+//   translation_ground  d = e . (p_WS - p_WF), e a ground axis
+//   translation_first   d = e . (p_WS - p_WF), e an axis of {1,e}
 //   spring_ground/_first  the same with e a given unit direction
-//   line_of_centres     d = |p2 - p1| - length
+//   line_of_centres     d = |p_WS - p_WF| - length
 //   rotation            d = sign * a . b, a an axis of {1,e}, b an axis of {2,e}
 //   rotation_vector     d = e . phi, e an axis of {1,e}, phi the rotation vector from it to {2,e}
 // or of a coupling of joint coordinates, without a closure and without a wrench:

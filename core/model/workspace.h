@@ -34,16 +34,16 @@ struct BodyState {
 // Closure points and frames.
 template <class Real>
 struct ClosureState {
-  Vec3<Real> p1, p2;        // points, ground, m
-  Vec3<Real> arm_1, arm_2;  // from the origins of the bodies to the points
-  Vec3<Real> v1, v2;        // velocities of the points
-  Mat3<Real> r1, r2;        // frames, where rows need them
-  // Closure force on chain 1: acting at p1 there and at p2 on chain 2, acting at p2 on both,
+  Vec3<Real> p_WF, p_WS;      // of the frames F on the first body and S on the second, m
+  Vec3<Real> p_BF_W, p_BS_W;  // from the origin of its own body each
+  Vec3<Real> v_WF, v_WS;      // m/s
+  Mat3<Real> R_WF, R_WS;      // where rows need them
+  // Closure force on chain 1: acting at F there and at S on chain 2, acting at S on both,
   // couple.
   Vec3<Real> force_points;
   Vec3<Real> force_second;
   Vec3<Real> couple;
-  // Forces of the contacts of a clearance on chain 1, and their moment about p1.
+  // Forces of the contacts of a clearance on chain 1, and their moment about F.
   Vec3<Real> contact_force;
   Vec3<Real> contact_moment;
   // Couple on the second body by which it feels more than the opposite of these.

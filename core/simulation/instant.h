@@ -143,7 +143,7 @@ class Instant {
   Real eccentricity(const Channel& c) const {
     const ClearanceStructure& s = m_.clearances[ClearanceIndex(c.index)];
     const ClosureState<Real>& x = w_.closures[s.closure];
-    const Mat3<Real>& frame = s.bearing_first ? x.r1 : x.r2;
+    const Mat3<Real>& frame = s.bearing_first ? x.R_WF : x.R_WS;
     Vec3<Real> e = w_.contacts[s.contact_begin].eccentricity;
     const ContactIndex last = s.contact_end - 1;
     if (last > s.contact_begin) e = Real(0.5) * (e + w_.contacts[last].eccentricity);

@@ -354,7 +354,7 @@ double turn_of(const Model& model, const State<double>& s, ClosureIndex i) {
   Workspace<double> w = make_workspace<double>(model.mechanism);
   compute_motion(model.mechanism, model.parameters, s, w);
   const ClosureState<double>& x = w.closures[i];
-  return std::atan2(dot(x.r2.y, x.r1.z), dot(x.r2.y, x.r1.y));
+  return std::atan2(dot(x.R_WS.y, x.R_WF.z), dot(x.R_WS.y, x.R_WF.y));
 }
 
 // Half a turn ends the law of the rotation vector.
@@ -367,7 +367,7 @@ void warn_of_large_turn(const Linkage& linkage, Preparation& p) {
     const bool measured = c.model == ClosureModel::sde && c.sde.tilt == TiltMeasure::angle;
     if (!measured || !m.closures[ClosureIndex(i)].needs_frames) continue;
     const ClosureState<double>& x = w.closures[ClosureIndex(i)];
-    const Vec3<double> phi = rotation_vector(x.r1, x.r2).phi;
+    const Vec3<double> phi = rotation_vector(x.R_WF, x.R_WS).phi;
     const double turn = std::sqrt(dot(phi, phi)) * 180.0 / std::numbers::pi;
     if (turn <= kLargeTurn) continue;
     p.warnings.push_back("closure '" + c.name + "': its ends are turned by " + number(turn) +
