@@ -2,7 +2,8 @@
 // environment variable LINKSTUDY_SIMD says `baseline`, `avx2` or `avx512` (a set that is not there
 // is an error), and how many cases a pack holds: its native width, or 1 with LINKSTUDY_LANES=1.
 // LINKSTUDY_KERNELS=general runs no code that the program has written for a linkage (core/codegen),
-// LINKSTUDY_KERNELS=written writes it even for a run too short to gain by it.
+// LINKSTUDY_KERNELS=written writes it even for a run too short to gain by it, and for two packs
+// side by side whether they gain or not.
 #pragma once
 
 #include <stdexcept>

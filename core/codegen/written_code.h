@@ -42,8 +42,8 @@ class WrittenCode {
   double call_s_ = 0.0;
 };
 
-// Frames that a call does side by side, so that one waits for nobody while the other is computed;
-// they share the registers, and the second stands behind the first.
+// Frames that a call does side by side, so that one is computed while the other waits; they share
+// the registers, and the second stands behind the first.
 struct FrameLayout {
   int slot_numbers = 0;  // doubles a slot
   int slots = 0;         // of a frame
