@@ -15,9 +15,9 @@ namespace {
 // Slots of a graph in a row: t, then parameters, memory, and the state, which is differentiated.
 class Tracer {
  public:
-  Tracer(const Mechanism& m, codegen::Graph& graph)
+  Tracer(const Mechanism& m, codegen::Graph& graph, bool rows_may_depend)
       : m_(m), graph_(graph), w_(make_workspace<Traced>(m)) {
-    w_.rows_may_depend = false;
+    w_.rows_may_depend = rows_may_depend;
   }
 
   void trace(const Parameters<double>& sizes) {
@@ -65,10 +65,10 @@ class Tracer {
 
 // The traced linkage, ready to be differentiated.
 struct Graphed {
-  Graphed(const Mechanism& m, const Parameters<double>& sizes) {
+  Graphed(const Mechanism& m, const Parameters<double>& sizes, bool rows_may_depend) {
     const FlushDenormals flush;
     const codegen::Trace tracing(graph);
-    Tracer tracer(m, graph);
+    Tracer tracer(m, graph, rows_may_depend);
     tracer.trace(sizes);
     memory = tracer.memory;
     state = tracer.state;
@@ -94,47 +94,68 @@ struct MotionDerivative::Code {
         slots(static_cast<std::size_t>(g.end)),
         tangents(g.graph, slots_between(g.state, g.end)) {}
 
+  void set_parameters(const Parameters<double>& p) {
+    auto to = slots.begin() + 1;
+    for_parameter_numbers<double>(
+        p, [&](const double* x, std::size_t n) { to = std::copy_n(x, n, to); });
+  }
+
   int memory, state;
   std::vector<double> slots;
   codegen::Tangents tangents;
 };
 
-MotionDerivative::MotionDerivative(const Mechanism& m, const Parameters<double>& p)
-    : nq_(m.nq), nv_(m.nv), nz_(m.nz) {
+std::unique_ptr<MotionDerivative::Code> MotionDerivative::trace(const Mechanism& m,
+                                                                const Parameters<double>& p,
+                                                                bool rows_may_depend) {
   try {
-    code_ = std::make_unique<Code>(Graphed(m, p));
+    auto code = std::make_unique<Code>(Graphed(m, p, rows_may_depend));
+    code->set_parameters(p);
+    return code;
   } catch (const Untraceable&) {
-    return;  // update() says that nothing is known
+    return nullptr;
   }
-  matrix_.resize(code_->tangents.rows(), code_->tangents.columns());
-  set_parameters(p);
+}
+
+MotionDerivative::MotionDerivative(const Mechanism& m, const Parameters<double>& p)
+    : mechanism_(m), parameters_(p), code_(trace(m, p, false)) {
+  const int n = m.nq + m.nv + m.nz;
+  matrix_.resize(n + 2, n);
 }
 
 MotionDerivative::~MotionDerivative() = default;
 
 void MotionDerivative::set_parameters(const Parameters<double>& p) {
-  if (!code_) return;
-  auto to = code_->slots.begin() + 1;
-  for_parameter_numbers<double>(
-      p, [&](const double* x, std::size_t n) { to = std::copy_n(x, n, to); });
+  parameters_ = p;
+  for (Code* const code : {code_.get(), dependent_.get()})
+    if (code != nullptr) code->set_parameters(p);
 }
 
 bool MotionDerivative::update(double t, const double* q, const double* v, const double* z,
                               const std::vector<ContactMemory<double>>& memory) {
   if (!code_) return false;
-  code_->slots.front() = t;
-  auto to = code_->slots.begin() + code_->memory;
+  if (update(*code_, t, q, v, z, memory)) return true;
+  if (mechanism_.cut_rows.empty()) return false;
+  if (!was_dependent_asked_) dependent_ = trace(mechanism_, parameters_, true);
+  was_dependent_asked_ = true;
+  return dependent_ && update(*dependent_, t, q, v, z, memory);
+}
+
+bool MotionDerivative::update(Code& code, double t, const double* q, const double* v,
+                              const double* z, const std::vector<ContactMemory<double>>& memory) {
+  code.slots.front() = t;
+  auto to = code.slots.begin() + code.memory;
   for (const ContactMemory<double>& one : memory) {
     for (const double x : {one.depth, one.rate, one.touching, one.approach, one.least_depth})
       *to++ = x;
   }
   const auto copy = [&to](const double* x, int n) { to = std::copy_n(x, n, to); };
-  copy(q, nq_);
-  copy(v, nv_);
-  copy(z, nz_);
-  codegen::Tangents& tangents = code_->tangents;
+  copy(q, mechanism_.nq);
+  copy(v, mechanism_.nv);
+  copy(z, mechanism_.nz);
+  codegen::Tangents& tangents = code.tangents;
   const FlushDenormals flush;
-  if (!tangents.update(code_->slots)) return false;
+  if (!tangents.update(code.slots)) return false;
   for (int k = 0; k < tangents.columns(); ++k)
     for (int i = 0; i < tangents.rows(); ++i) matrix_(i, k) = tangents.derivative(i, k);
   return matrix_.allFinite();

@@ -1,9 +1,11 @@
 // The equations of motion of a linkage, differentiated exactly: with x = (q, v, z)
 //   x' = (q', qdd, z')(t, x),   matrix() = d(x', P)/dx,   n = nq + nv + nz,
 // P the two powers that the energy ledger integrates: supplied and dissipated.
-// They are traced once for a structure (core/codegen/traced.h); numbers of all parameters serve.
-// Joints, closures, loads, springs, contacts and friction are in, each on its side of a bend.
-// Driven coordinates count as given: q and v of the state.
+// They are traced once for a structure (core/codegen/traced.h), and once more where cut rows depend
+// on each other, whose multipliers are then those of least norm for the rank and the pivots that
+// they have there; numbers of all parameters serve. Joints, closures, loads, springs, contacts and
+// friction are in, each on its side of a bend. Driven coordinates count as given: q and v of the
+// state.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,8 +27,8 @@ class MotionDerivative {
   // Others of the same structure.
   void set_parameters(const Parameters<double>& p);
 
-  // At (t, q, v, z), contacts as they remember. False where nothing is known: cut rows that depend
-  // on each other, friction in joints that does not settle in a few passes, a jump.
+  // At (t, q, v, z), contacts as they remember. False where nothing is known: friction in joints
+  // that does not settle in a few passes, a jump.
   bool update(double t, const double* q, const double* v, const double* z,
               const std::vector<ContactMemory<double>>& memory);
 
@@ -35,8 +37,16 @@ class MotionDerivative {
 
  private:
   struct Code;
-  std::unique_ptr<Code> code_;
-  int nq_, nv_, nz_;
+  // Null where the equations cannot be traced.
+  static std::unique_ptr<Code> trace(const Mechanism& m, const Parameters<double>& p,
+                                     bool rows_may_depend);
+  bool update(Code& code, double t, const double* q, const double* v, const double* z,
+              const std::vector<ContactMemory<double>>& memory);
+
+  Mechanism mechanism_;
+  Parameters<double> parameters_;
+  std::unique_ptr<Code> code_, dependent_;  // the latter when it is asked for
+  bool was_dependent_asked_ = false;
   Eigen::MatrixXd matrix_;
 };
 

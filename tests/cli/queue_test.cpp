@@ -349,7 +349,13 @@ TEST_F(Queue, The_wall_time_ends_it_and_further_starts_end_all) {
   EXPECT_THAT(begun_in(first.err), ElementsAre("b", "a_endless"));
   EXPECT_THAT(first.err, HasSubstr("are left: it comes last"));
   EXPECT_EQ(states(), (States{{"a_endless", "interrupted"}, {"b", "done"}}));
-  write("q/c_long.toml", plain_study(400, 6.0));
+  // Some seconds of work, however fast the machine is.
+  write("probe.toml", plain_study(100, 6.0));
+  const auto begin = std::chrono::steady_clock::now();
+  ASSERT_EQ(run("study probe.toml -o probe").code, 0);
+  const std::chrono::duration<double> probe = std::chrono::steady_clock::now() - begin;
+  const int cases = std::max(400, static_cast<int>(100 * 3.0 / probe.count()));
+  write("q/c_long.toml", plain_study(cases, 6.0));
   std::filesystem::remove(path("q/a_endless.toml"));
   int starts = 0;
   Ended ended{75, "", ""};
@@ -364,7 +370,7 @@ TEST_F(Queue, The_wall_time_ends_it_and_further_starts_end_all) {
 }
 
 TEST_F(Queue, Signals_end_it_with_75_and_the_next_start_goes_on) {
-  write("q/1.toml", plain_study(150));
+  write("q/1.toml", plain_study(150, 20.0));
   write("q/2.toml", endless_study());
   write("q/3.toml", plain_study(2));
   pid_t child = start({"queue", "q"});

@@ -28,10 +28,11 @@ signal = "joint.A.v"
 reduce = "last"
 END
 }
-write_study short.toml 20.0
+write_study short.toml 150.0
 write_study endless.toml 2e5
 mkdir "$dir/elsewhere"; cd "$dir/elsewhere" || exit 1
 
+has_finished() { "$program" status "$dir/$1" --json | grep -q '"finished":[1-9]'; }
 is_working() { grep -q " left" "$dir/$1/linkstudy.log" 2>/dev/null; }
 start() {  # FILE DIR
   LINKSTUDY=$program bash -c 'trap - INT; exec "$@"' - "$script" study "$dir/$1" "$dir/$2" \
@@ -55,6 +56,7 @@ wait_until "the first is understood" grep -q "once more cancels it" "$dir/err"
 kill -USR1 "$job"
 expect_75 "the second Ctrl-C, with long evaluations in flight,"
 start short.toml finish
+wait_until "the first is done" has_finished finish
 kill -USR1 "$job"
 expect_75 "the first Ctrl-C"
 "$program" status "$dir/finish" --json | grep -q '"finished":[1-7],' ||
@@ -63,7 +65,7 @@ LINKSTUDY=$program "$script" study "$dir/short.toml" "$dir/finish" >"$dir/out" 2
   fail "the same command does not go on"
 grep -q "^results digest: " "$dir/out" || fail "no digest at the end"
 mkdir "$dir/folder"; cp "$dir/model.toml" "$dir/folder"
-write_study folder/short.toml 20.0
+write_study folder/short.toml 150.0
 LINKSTUDY=$program "$script" queue "$dir/folder" --json >"$dir/out" 2>"$dir/err" ||
   fail "a folder is not run"
 grep -q '"state":"done".*"digest":"'"$("$program" status "$dir/finish" --json |

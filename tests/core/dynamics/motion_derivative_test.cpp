@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "core/dynamics/equations_of_motion.h"
+#include "core/simulation/prepare.h"
 #include "tests/mechanisms/bennett.h"
 #include "tests/mechanisms/random_linkages.h"
 #include "tests/mechanisms/rsrrp.h"
@@ -155,11 +156,29 @@ TEST(MotionDerivative, A_loose_pin_with_friction_agrees_while_it_presses) {
   expect_exact(model, 1.0, x, 1e-6, 1e-5, touch);
 }
 
-TEST(MotionDerivative, Where_cut_rows_depend_on_each_other_nothing_is_known) {
-  const Model model = compile(bennett());
-  MotionDerivative derivative(model.mechanism, model.parameters);
-  const State<double>& s = model.start;
-  EXPECT_FALSE(derivative.update(0.0, s.q.data(), s.v.data(), nullptr, {}));
+// Along the motion, where the rows stay as dependent as they are: d(x', P)/dt = J x'.
+TEST(MotionDerivative, Where_cut_rows_depend_on_each_other_it_holds_along_the_motion) {
+  Linkage linkage = bennett();
+  for (Joint& joint : linkage.joints)
+    if (joint.parent == kGround) joint.velocity = {2.0};
+  const Preparation p = prepare(linkage, {});
+  ASSERT_EQ(p.cause, Cause::ok) << p.message;
+  const Model& model = p.model;
+  const Mechanism& m = model.mechanism;
+  const VectorXd x = state_of(model);
+  Rates rates(model);
+  const VectorXd rate = rates.at(0.0, x).head(x.size());
+  ASSERT_GT(rate.norm(), 1.0);
+  ASSERT_LT(rates.w.kept_rows, m.cut_row_count());  // they do depend
+  MotionDerivative derivative(m, model.parameters);
+  ASSERT_TRUE(derivative.update(0.0, x.data(), x.data() + m.nq, nullptr, {}));
+  const double h = 1e-5;
+  const VectorXd expected =
+      (rates.at(0.0, x + h * rate) - rates.at(0.0, x - h * rate)) / (2.0 * h);
+  const VectorXd found = derivative.matrix() * rate;
+  for (Eigen::Index i = 0; i < expected.size(); ++i) {
+    EXPECT_NEAR(found[i], expected[i], 1e-6 * expected.lpNorm<Eigen::Infinity>()) << i;
+  }
 }
 
 TEST(MotionDerivative, Other_numbers_of_one_structure_need_no_new_trace) {
