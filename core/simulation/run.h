@@ -60,8 +60,8 @@ class Run {
     move_state();
   }
 
-  // A step up to the written code, or all of what comes before the next one where there is none.
-  // False once all lanes have ended.
+  // What comes before the written code in a step: looks at the state where something is due, and
+  // hands it over. False once all lanes have ended.
   bool begin_step() {
     if (written_.takes_other_code()) move_state();
     is_quiet_ = is_quiet();
@@ -71,7 +71,7 @@ class Run {
     return true;
   }
 
-  // Whether the code is to do the step that has begun, and whether it has, for all lanes.
+  // Whether the code is to do the step that has begun, and whether all is well with what it did.
   bool asks_code() const { return asks_; }
   bool is_fine() const { return (written_.fine() & active_) == active_; }
 
