@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <fstream>
 #include <optional>
@@ -18,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-int code_of(int status) {
+int exit_code(int status) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
@@ -50,10 +51,23 @@ Ended Program::run(const std::string& arguments, const std::string& before) cons
   std::optional<LauncherWatch> watch;
   if (before.find("mpirun") != std::string::npos) watch.emplace(directory_);
   Ended ended;
-  ended.code = code_of(std::system(command.c_str()));
+  ended.code = exit_code(std::system(command.c_str()));
   ended.out = read_text(directory_ / ".streams/out");
   ended.err = read_text(directory_ / ".streams/err");
   return ended;
+}
+
+double Program::seconds_of(const std::string& arguments) const {
+  const auto begin = std::chrono::steady_clock::now();
+  const Ended ended = run(arguments);
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+int Program::code_of(pid_t child) {
+  int status = 0;
+  waitpid(child, &status, 0);
+  return exit_code(status);
 }
 
 pid_t Program::start(const std::vector<std::string>& arguments) const {

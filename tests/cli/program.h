@@ -30,8 +30,13 @@ class Program : public ::testing::Test {
 
   // "linkstudy ARGUMENTS" by a shell; `before` stands in front ("mpirun -n 2").
   Ended run(const std::string& arguments, const std::string& before = "") const;
+  // Wall time of a run that ends well.
+  double seconds_of(const std::string& arguments) const;
   // Starts it without waiting; the process is the program itself.
   pid_t start(const std::vector<std::string>& arguments) const;
+
+  // Waits for its end: exit code, or 128 + signal.
+  static int code_of(pid_t child);
 
   std::filesystem::path path(const std::string& name) const { return directory_ / name; }
   void write(const std::string& name, const std::string& text) const;

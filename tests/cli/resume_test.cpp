@@ -76,12 +76,6 @@ class Resume : public Program {
     return false;
   }
 
-  static int code_of(pid_t child) {
-    int status = 0;
-    waitpid(child, &status, 0);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  }
-
   std::string log_of(const std::string& directory) const {
     return read_text(path(directory) / "linkstudy.log");
   }

@@ -173,8 +173,7 @@ TEST(MotionDerivative, Where_cut_rows_depend_on_each_other_it_holds_along_the_mo
   MotionDerivative derivative(m, model.parameters);
   ASSERT_TRUE(derivative.update(0.0, x.data(), x.data() + m.nq, nullptr, {}));
   const double h = 1e-5;
-  const VectorXd expected =
-      (rates.at(0.0, x + h * rate) - rates.at(0.0, x - h * rate)) / (2.0 * h);
+  const VectorXd expected = (rates.at(0.0, x + h * rate) - rates.at(0.0, x - h * rate)) / (2.0 * h);
   const VectorXd found = derivative.matrix() * rate;
   for (Eigen::Index i = 0; i < expected.size(); ++i) {
     EXPECT_NEAR(found[i], expected[i], 1e-6 * expected.lpNorm<Eigen::Infinity>()) << i;
