@@ -23,11 +23,11 @@ class Watch : public Program {
     if (launcher != 0) return launcher;
     prctl(PR_SET_NAME, "mpirun");
     if (chdir(path("").c_str()) != 0) _exit(99);
-    if (fork() == 0) _exit(0);
     if (goes_on && fork() == 0) {
       prctl(PR_SET_PDEATHSIG, SIGKILL);
       for (;;) pause();
     }
+    if (fork() == 0) _exit(0);
     for (;;) pause();
   }
 };
