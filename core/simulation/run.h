@@ -78,15 +78,15 @@ class Run {
   // The rest of the step, by the code or, from the same state, by the general loop. False once all
   // lanes have ended.
   bool end_step(bool by_code) {
-    if (is_quiet_) {
-      if (by_code && see_step()) return go_on();
-      if (!look()) return false;
-    } else if (by_code) {
+    by_code = by_code && (!is_quiet_ || see_step());
+    if (is_quiet_ && !by_code && !look()) return false;
+    if (by_code) {
       take_next();
-      return go_on();
+    } else {
+      advance();
     }
-    advance();
-    return go_on();
+    ++step_;
+    return true;
   }
 
  private:
@@ -95,11 +95,6 @@ class Run {
     Real* const to = written_.state() != nullptr ? written_.state() : own_y_.data();
     if (to != y_) std::copy_n(y_, size_, to);
     y_ = to;
-  }
-
-  bool go_on() {
-    ++step_;
-    return true;
   }
 
   // The general evaluation of an accepted state, for all who look at it. False once all lanes have
@@ -174,8 +169,7 @@ class Run {
     observers_.observe(step_, [this](int observer, std::size_t i, const Channel&) {
       return written_.observed(observer, i);
     });
-    if (step_ % kStepsBetweenPolls == 0 && interrupted(t)) return true;
-    take_next();
+    if (step_ % kStepsBetweenPolls == 0) interrupted(t);
     return true;
   }
 

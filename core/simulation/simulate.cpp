@@ -89,12 +89,14 @@ class Packed {
 
   std::span<const LaneCase> lanes() const { return lanes_; }
 
-  void run(const SimulationOptions& options, Watch& watch, const Kernel& kernel,
-           const StepCode* code) {
+  // `count` cases from `first` on at once, within the limits for themselves.
+  void run(const SimulationOptions& options, const RunLimits& limits, const Kernel& kernel,
+           const StepCode* code, std::size_t first, std::size_t count) {
+    Watch watch{limits};
     KernelRun setting = setting_of(options, watch);
     setting.code = code;
-    kernel.run(m_, setting, lanes_.data(), static_cast<int>(lanes_.size()));
-    for (std::size_t i = 0; i < cases_.size(); ++i) {
+    kernel.run(m_, setting, &lanes_[first], static_cast<int>(count));
+    for (std::size_t i = first; i < first + count; ++i) {
       const long steps = ends_[i].steps;
       const double reached = setting.t0 + static_cast<double>(steps) * setting.h;
       store(i, {reached, steps, 0, kStepEvaluations * steps, 0});
@@ -219,20 +221,23 @@ class Packed {
   std::vector<LaneCase> lanes_;
 };
 
-// Two packs side by side where there is code for both, or one. A lone case takes one lane: the same
-// bits, and faster than a pack of copies.
-void run_pack(const Mechanism& m, const SimulationOptions& options, std::span<BatchCase> cases,
-              const RunLimits& limits, const SimdLevel& level) {
+// Two packs side by side where there is code for both, or one after the other. A lone case takes
+// one lane: the same bits, and faster than a pack of copies.
+void run_packs(const Mechanism& m, const SimulationOptions& options, std::span<BatchCase> cases,
+               const RunLimits& limits, const SimdLevel& level) {
+  const long steps = make_step_grid(options).count;
   const auto width = static_cast<std::size_t>(level.lanes);
-  const int lanes = cases.size() == 1 ? 1 : level.lanes;
   Packed packed(m, cases);
-  PackCode code(m, packed.lanes(), make_step_grid(options).count, level, lanes);
-  if (cases.size() > width && code.get() == nullptr) {
-    run_pack(m, options, cases.first(width), limits, level);
-    return run_pack(m, options, cases.subspan(width), limits, level);
-  }
-  Watch watch{limits};
-  packed.run(options, watch, find_kernel(level.isa, lanes), code.get());
+  // False, and nothing has run, where two packs have no code.
+  const auto run = [&](std::size_t first, std::size_t count) {
+    const int lanes = count == 1 ? 1 : level.lanes;
+    PackCode code(m, packed.lanes().subspan(first, count), steps, level, lanes);
+    if (count > width && code.get() == nullptr) return false;
+    packed.run(options, limits, find_kernel(level.isa, lanes), code.get(), first, count);
+    return true;
+  };
+  if (cases.size() > width && run(0, cases.size())) return;
+  for (std::size_t i = 0; i < cases.size(); i += width) run(i, std::min(width, cases.size() - i));
 }
 
 }  // namespace
@@ -280,7 +285,7 @@ void simulate_batch(const Mechanism& mechanism, const SimulationOptions& options
     return Packed(mechanism, all).run_adaptive(options, limits, level);
   }
   for (std::size_t i = 0; i < all.size(); i += most) {
-    run_pack(mechanism, options, all.subspan(i, std::min(most, all.size() - i)), limits, level);
+    run_packs(mechanism, options, all.subspan(i, std::min(most, all.size() - i)), limits, level);
   }
 }
 

@@ -10,7 +10,7 @@ namespace linkstudy {
 namespace {
 
 constexpr int kRefills = 4;
-constexpr int kPacksOfRank = 8;  // the last one is late by so small a part, if at all
+constexpr int kLeastPacks = 8;  // of a rank: the last is late by so small a part, if at all
 
 // In the order of their first points.
 std::vector<std::vector<Point>> sort_by_kind(const std::vector<Point>& points,
@@ -46,7 +46,7 @@ int pack_width(const Evaluator& evaluator, const std::vector<Point>& points, int
     if (lanes == 1) return lanes;
     if (model.options.integrator == Integrator::adaptive) return kRefills * lanes;
     const int beside = packs_beside(simd_level()) * lanes;
-    const bool is_plenty = points.size() >= static_cast<std::size_t>(kPacksOfRank * beside * ranks);
+    const bool is_plenty = points.size() >= static_cast<std::size_t>(kLeastPacks * beside * ranks);
     return is_plenty ? beside : lanes;
   } catch (const InvalidPoint&) {
     return lanes;
