@@ -125,6 +125,12 @@ MotionDerivative::MotionDerivative(const Mechanism& m, const Parameters<double>&
 
 MotionDerivative::~MotionDerivative() = default;
 
+bool MotionDerivative::has_structure_of(const Model& model) const {
+  const MechanismStructure &own = mechanism_, &other = model.mechanism;
+  return own == other &&
+         parameter_number_count(parameters_) == parameter_number_count(model.parameters);
+}
+
 void MotionDerivative::set_parameters(const Parameters<double>& p) {
   parameters_ = p;
   for (Code* const code : {code_.get(), dependent_.get()})
@@ -163,29 +169,18 @@ bool MotionDerivative::update(Code& code, double t, const double* q, const doubl
 
 MotionDerivative& derivative_of(const Model& model) {
   constexpr std::size_t kKept = 8;  // structures: replacements and exact joints of a study
-  struct Kept {
-    MechanismStructure structure;
-    std::size_t numbers;
-    std::unique_ptr<MotionDerivative> derivative;
-  };
-  static thread_local std::vector<Kept> kept;  // the one asked for last is the last
-  std::size_t numbers = 0;
-  for_parameter_numbers<double>(model.parameters,
-                                [&](const double*, std::size_t n) { numbers += n; });
-  const MechanismStructure& structure = model.mechanism;
-  const auto same = [&](const Kept& one) {
-    return one.numbers == numbers && one.structure == structure;
-  };
-  const auto found = std::ranges::find_if(kept, same);
+  // The one asked for last is the last.
+  static thread_local std::vector<std::unique_ptr<MotionDerivative>> kept;
+  const auto found =
+      std::ranges::find_if(kept, [&](const auto& one) { return one->has_structure_of(model); });
   if (found != kept.end()) {
-    found->derivative->set_parameters(model.parameters);
+    (*found)->set_parameters(model.parameters);
     std::rotate(found, found + 1, kept.end());
   } else {
     if (kept.size() == kKept) kept.erase(kept.begin());
-    kept.push_back({structure, numbers,
-                    std::make_unique<MotionDerivative>(model.mechanism, model.parameters)});
+    kept.push_back(std::make_unique<MotionDerivative>(model.mechanism, model.parameters));
   }
-  return *kept.back().derivative;
+  return *kept.back();
 }
 
 }  // namespace linkstudy

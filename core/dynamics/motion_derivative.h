@@ -24,6 +24,7 @@ class MotionDerivative {
   MotionDerivative(const MotionDerivative&) = delete;
   MotionDerivative& operator=(const MotionDerivative&) = delete;
 
+  bool has_structure_of(const Model& model) const;
   // Others of the same structure.
   void set_parameters(const Parameters<double>& p);
 

@@ -51,4 +51,12 @@ inline void for_parameter_numbers(P& p, F&& f) {
   for_parameter_lists([&](auto& list) { f(numbers_in<Real>(list), number_count<Real>(list)); }, p);
 }
 
+// How many they are: chosen points count, though they are no structure.
+template <class Real>
+inline int parameter_number_count(const Parameters<Real>& p) {
+  std::size_t count = 0;
+  for_parameter_numbers<Real>(p, [&](const Real*, std::size_t n) { count += n; });
+  return static_cast<int>(count);
+}
+
 }  // namespace linkstudy

@@ -13,12 +13,6 @@ namespace {
 constexpr long kFirstQuestion = 2048;  // evaluations of the equations of motion
 constexpr long kEvaluationsPerTrial = 6;
 
-int parameter_count(const Parameters<double>& p) {
-  std::size_t count = 0;
-  for_parameter_numbers<double>(p, [&](const double*, std::size_t n) { count += n; });
-  return static_cast<int>(count);
-}
-
 }  // namespace
 
 TrialFrame::TrialFrame(const Mechanism& m, std::span<const LaneCase> cases, const SimdLevel& level,
@@ -29,7 +23,8 @@ TrialFrame::TrialFrame(const Mechanism& m, std::span<const LaneCase> cases, cons
       lanes_(lanes),
       width_(slot_numbers(lanes)),
       observed_(m, *cases[0].observers),
-      slots_(m, parameter_count(*cases[0].parameters), static_cast<int>(observed_.all().size())),
+      slots_(m, parameter_number_count(*cases[0].parameters),
+             static_cast<int>(observed_.all().size())),
       frame_(slots_.count * width_),
       numbers_(frame_.data()),
       general_(find_kernel(level.isa, lanes)
